@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/field.h"
+#include "core/base/tube_address.h"
+
+namespace tubesight::core {
+
+/// How far the box knows where it is; the column `state`.
+enum class TrackState : std::uint8_t {
+  kWaiting,   ///< no start yet
+  kTracking,  ///< known from this field
+  kDegraded,  ///< an answer that needs care: coasting, two tubes left
+  kLost,      ///< ends only by a new start
+};
+
+/// Why the state is not tracking; the column `reason`. docs/messages.md explains each.
+enum class Reason : std::uint8_t {
+  kNone,
+  kNoStart,       ///< waiting: nobody has named tubes yet
+  kStartRefused,  ///< waiting: the clicks contradict the lattice or the picture
+  kFewTubes,      ///< degraded: two tube-ends left
+  kDark,          ///< coasting: the picture shows no light
+  kWashedOut,     ///< coasting: the picture is saturated
+  kNoTubes,       ///< coasting: no tube-end where the motion says they are
+  kDamagedField,  ///< coasting: the field's pixels are not to be used
+  kUncertain,     ///< degraded: the address is too near to its rounding limit
+  kCoasted,       ///< lost: the region the tool can have reached grew too large
+  kJump,          ///< the picture contradicts any motion within the limits
+  kSpeed,         ///< lost: faster than the limits of [motion]
+  kGap,           ///< lost: too many fields are missing
+  kTime,          ///< lost: time ran backwards
+  kArithmetic,    ///< lost: a number left the range of the fixed-point format
+};
+
+/// A position in full-frame pixels, in 1/65536 px: the same bits on every machine.
+struct ImagePoint {
+  std::int32_t u_q16 = 0;
+  std::int32_t v_q16 = 0;
+};
+
+/// The box's answer for one field; a row of `--fields`.
+///
+/// Numbers are integers of stated scale, so that files printed from them agree to the byte.
+struct Sighting {
+  FieldTime time{0};
+  TrackState state = TrackState::kWaiting;
+  Reason reason = Reason::kNoStart;
+  std::int32_t tracked = 0;  ///< tube-ends measured in this field and used
+
+  bool primary_known = false;
+  TubeAddress primary{};    ///< the tube-end nearest to the optimum point
+  ImagePoint primary_px{};  ///< its centre
+
+  bool axis_known = false;        ///< the members below are valid
+  ImagePoint axis_px{};           ///< image of the point where the guidetube's axis meets the sheet
+  std::int32_t height_um_q8 = 0;  ///< tip below the plane of the tube-ends, 1/256 um
+
+  bool tool_known = false;        ///< `tool` stands there and is the nearest beyond doubt
+  TubeAddress tool{};             ///< the tube nearest to the guidetube's axis
+  ImagePoint tool_px{};           ///< image of that tube's centre
+  std::int32_t offset_um_q8 = 0;  ///< its distance from the axis, 1/256 um
+  bool aligned = false;           ///< the box vouches for `tool`
+
+  bool velocity_known = false;
+  std::array<std::int32_t, 2> velocity_um_s{};  ///< of the axis over the sheet, sheet x and y
+
+  bool margin_known = false;
+  std::int32_t margin_permyriad = 0;  ///< distance from the rounding limit in sigma, 1/10000
+};
+
+/// Everything known about one measured tube-end; a row of `--centers`.
+struct TubeSighting {
+  TubeAddress address;
+  ImagePoint center_px;                ///< image of the tube-end's centre
+  std::int32_t quality_permyriad = 0;  ///< 0..10000; 0: measured but rejected from the fit
+  bool plug = false;                   ///< recognised as a plug
+};
+
+/// Tube-ends that a field can yield: a 640 by 480 picture of the smallest pitch (17 mm at 200 mm
+/// distance) shows some 60 of 16 px height or more inside a full-frame window.
+inline constexpr std::int32_t kMaxTubesInView = 96;
+
+}  // namespace tubesight::core

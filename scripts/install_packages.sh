@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# Installs what is missing to build and run Tubesight on Debian 12; silent when nothing is.
+#
+# Usage: scripts/install_packages.sh bench          what the program needs to be built and run
+#        scripts/install_packages.sh bench test     and what the tests and checks need
+set -euo pipefail
+
+bench=(
+  g++                   # the compiler, 12.2 on Debian 12
+  cmake                 # 3.25, presets version 6
+  ninja-build           # the presets' generator
+  libeigen3-dev         # transforms; pose and calibration later
+  liblzma-dev           # .y4m.xz recordings
+  libpng-dev            # overlay pictures
+  libtomlplusplus-dev   # settings
+  libcli11-dev          # the command line
+)
+test=(
+  libgtest-dev          # tests on the PC
+  googletest            # its source, built for arm64
+  libbenchmark-dev      # time per field
+  clang                 # libFuzzer, and a second opinion
+  libclang-rt-14-dev    # libFuzzer's and the sanitizers' run time for it
+  clang-format          # format check
+  clang-tidy            # preset bench-tidy
+  valgrind              # callgrind: instructions per field
+  python3               # tests/checks/
+  g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
+  qemu-user-static      # runs its tests
+)
+
+fail() {
+  echo "$0: $1" >&2
+  exit 1
+}
+
+wanted=()
+for group in "$@"; do
+  case $group in
+    bench) wanted+=("${bench[@]}") ;;
+    test) wanted+=("${test[@]}") ;;
+    *) fail "unknown group '$group', expected bench or test" ;;
+  esac
+done
+[ ${#wanted[@]} -gt 0 ] || fail "no group given, expected bench or test"
+
+if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
+  fail "this is not Debian; install by hand what corresponds to: ${wanted[*]}"
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo > /dev/null \
+    || fail "not root and no sudo; as root, run: apt-get install ${missing[*]}"
+  as_root=(sudo)
+fi
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+echo "installing: ${missing[*]}" >&2
+# A source list of someone else's that cannot be reached is no reason to stop: what counts is whether
+# the packages install.
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get -q -o Acquire::Retries=3 update > "$log" 2>&1 < /dev/null || true
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+  apt-get -qy -o Acquire::Retries=3 install --no-install-recommends "${missing[@]}" \
+  >> "$log" 2>&1 < /dev/null || {
+    tail -n 5 "$log" >&2
+    fail "apt-get could not install ${missing[*]} (network? Debian 12?)"
+  }

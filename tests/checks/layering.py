@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+"""Arrows point one way: scans the include lines against the table of the folders.
+
+Usage: layering.py ROOT | layering.py --self-test
+
+Ours are included as "folder/file.h" from the repository's root, everything else in angle brackets
+and only from the list of the layer. Operating system and vendor headers belong to drivers and
+boards. Nothing below a board asks a clock: time comes with the field.
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+from source_text import code_only, report, sources
+
+BASE = ["core/base"]
+TRACKING = BASE + ["core/camera", "core/tubesheet", "core/edges"]
+POSE = TRACKING
+
+# Folder: the folders of ours it may include beside itself.
+MAY_INCLUDE = {
+    "core/base": [],
+    "hal": BASE,
+    "core/camera": BASE,
+    "core/tubesheet": BASE,
+    "core/edges": BASE,
+    "core/tracking": TRACKING,
+    "core/pose": POSE,
+    "core/kinematics": BASE,
+    "core/calibration": POSE + ["core/pose", "core/kinematics"],
+    "core/lighting": BASE + ["core/edges"],
+    "core/verification": BASE + ["core/tubesheet", "core/tracking", "core/pose"],
+    "core/overlay": BASE + ["core/camera", "core/tubesheet"],
+    "core/rendering": BASE + ["core/camera", "core/tubesheet", "core/kinematics"],
+    "core/session": TRACKING + ["core/tracking", "core/pose", "core/calibration",
+                                "core/kinematics", "core/lighting", "core/verification",
+                                "core/overlay"],
+    "drivers/files": BASE + ["hal"],
+    # Drivers do not know each other, with one exception: drivers/files holds what all that read files
+    # share (places and messages), and is the library that a recording as a frame grabber stands on.
+    "drivers/settings": BASE + ["hal", "drivers/files"],
+    "drivers/replay": BASE + ["hal", "drivers/files"],
+    "drivers/simulated": BASE + ["hal", "core/rendering", "core/kinematics"],
+}
+ANY_DRIVER = BASE + ["hal"]
+
+# No owning container, no stream, no std::function, no lock: what core and hal may take of std.
+CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
+    cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
+    tuple type_traits utility variant version""".split())
+EIGEN_FOLDERS = ("core/base", "core/pose", "core/calibration", "core/kinematics")
+
+DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
+    cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string
+    system_error thread unordered_map unordered_set vector""".split())
+POSIX = re.compile(r"^(errno|fcntl|poll|signal|unistd|sys/[a-z_]+)\.h$")
+DRIVER_LIBRARY = {
+    "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
+    "drivers/settings": re.compile(r"^toml\+\+/"),
+}
+
+FORBIDDEN_BELOW_BOARD = [
+    (re.compile(r"::now\s*\("), "asks a clock; time comes with the field or from hal::Clock"),
+    (re.compile(r"\b(clock_gettime|gettimeofday|std::time|std::clock)\s*\("), "asks a clock"),
+]
+FORBIDDEN_IN_CORE = [
+    (re.compile(r"\bstd::(stable_sort|stable_partition|inplace_merge)\b"), "allocates"),
+    (re.compile(r"\bstd::(string|vector|function|map|set|deque|list|unique_ptr|shared_ptr)\b"),
+     "owns memory"),
+    (re.compile(r"\b(new|malloc|calloc|realloc)\s*[\[(]|\bnew\s+\w"), "allocates"),
+    (re.compile(r"\b(throw\b|dynamic_cast\s*<|typeid\s*\()"), "needs exceptions or RTTI"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]')
+
+
+def folder_of(path):
+    """The row of the table that a path of ours belongs to: "core/base", "hal", "board/bench"."""
+    parts = path.split("/")
+    return parts[0] if parts[0] in ("hal", "tests") else "/".join(parts[:2])
+
+
+def own_include_problem(root, folder, target):
+    if not (root / target).is_file():
+        return f'"{target}" is no file below the repository; others go in angle brackets'
+    to = folder_of(target)
+    if to == folder:
+        return None
+    if folder.startswith("board/"):
+        return "a board may not include tests" if to == "tests" else None
+    allowed = MAY_INCLUDE.get(folder, ANY_DRIVER if folder.startswith("drivers/") else None)
+    if allowed is None:
+        return f"the folder {folder} has no row in the table of tests/checks/layering.py"
+    return None if to in allowed else f"{folder} may not include {to}"
+
+
+def system_include_problem(folder, target):
+    if folder.startswith("board/"):
+        return None
+    if folder.startswith("drivers/"):
+        library = DRIVER_LIBRARY.get(folder)
+        if target in DRIVER_STD or POSIX.match(target) or (library and library.match(target)):
+            return None
+        return f"<{target}> is not on the list of {folder}"
+    if target in CORE_STD or (target.startswith("Eigen/") and folder in EIGEN_FOLDERS):
+        return None
+    return f"<{target}> is not on the list of {folder}"
+
+
+def check(root):
+    root = pathlib.Path(root)
+    problems = []
+    files = sources(root, ["core", "hal", "drivers", "board"])
+    for path in files:
+        name = path.relative_to(root).as_posix()
+        folder = folder_of(name)
+        text = path.read_text(encoding="utf-8")
+        for number, line in enumerate(text.splitlines(), 1):
+            match = INCLUDE.match(line)
+            if not match:
+                continue
+            quote, target = match.groups()
+            problem = (own_include_problem(root, folder, target) if quote == '"'
+                       else system_include_problem(folder, target))
+            if problem:
+                problems.append(f"{name}:{number}: {problem}")
+        if folder.startswith("board/"):
+            continue
+        rules = list(FORBIDDEN_BELOW_BOARD)
+        if not folder.startswith("drivers/"):
+            rules += FORBIDDEN_IN_CORE
+        for number, line in enumerate(code_only(text).splitlines(), 1):
+            if line.lstrip().startswith("#"):
+                continue
+            for pattern, why in rules:
+                if pattern.search(line):
+                    problems.append(f"{name}:{number}: '{line.strip()}' {why}")
+    return problems, len(files)
+
+
+# Planted violations: file, text, a part of the message; None where nothing may be found.
+PLANTED = [
+    ("core/base/good.h", "#include <span>\n#include <Eigen/Core>\n// std::vector, new x, now()\n",
+     None),
+    ("core/camera/good.cpp", '#include "core/base/good.h"\nauto s = "throw std::string";\n', None),
+    ("drivers/files/good.cpp", '#include <lzma.h>\n#include <vector>\n#include "core/base/good.h"\n',
+     None),
+    ("board/bench/good.cpp", '#include <iostream>\n#include "drivers/files/own.h"\n', None),
+    ("drivers/files/own.h", "", None),
+    ("tests/support/fake.h", "", None),
+    ("core/base/up.cpp", '#include "core/camera/good.h"\n', "core/base may not include core/camera"),
+    ("core/camera/good.h", "", None),
+    ("core/edges/side.cpp", '#include "core/camera/good.h"\n', "may not include core/camera"),
+    ("core/tracking/driver.cpp", '#include "drivers/files/own.h"\n', "may not include drivers/files"),
+    ("hal/fake.h", '#include "tests/support/fake.h"\n', "hal may not include tests"),
+    ("board/bench/fake.cpp", '#include "tests/support/fake.h"\n', "may not include tests"),
+    ("core/unknown/a.cpp", '#include "core/base/good.h"\n', "no row in the table"),
+    ("core/base/relative.cpp", '#include "good.h"\n', "is no file below the repository"),
+    ("core/base/stream.h", "#include <iostream>\n", "<iostream> is not on the list"),
+    ("core/edges/vector.h", "#include <vector>\n", "<vector> is not on the list"),
+    ("core/edges/eigen.h", "#include <Eigen/Core>\n", "<Eigen/Core> is not on the list"),
+    ("hal/os.h", "#include <unistd.h>\n", "<unistd.h> is not on the list"),
+    ("drivers/files/replay.cpp", '#include "drivers/replay/a.h"\n', "may not include drivers/replay"),
+    ("drivers/replay/a.h", '#include "drivers/files/own.h"\n', None),
+    ("drivers/replay/png.cpp", "#include <png.h>\n", "<png.h> is not on the list"),
+    ("drivers/replay/clock.cpp", "auto t = std::chrono::steady_clock::now();\n", "asks a clock"),
+    ("core/session/clock.cpp", "auto t = Clock::now ();\n", "asks a clock"),
+    ("core/tracking/heap.cpp", "auto* p = new int;\n", "allocates"),
+    ("core/tracking/sort.cpp", "std::stable_sort(a, b);\n", "allocates"),
+    ("core/tracking/throw.cpp", "void f() { throw 1; }\n", "exceptions"),
+]
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text, _ in PLANTED:
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        found, _ = check(root)
+    wrong = []
+    for name, _, expected in PLANTED:
+        own = [problem for problem in found if problem.startswith(name + ":")]
+        if expected is None and own:
+            wrong.append(f"reported without reason: {own}")
+        if expected is not None and not any(expected in problem for problem in own):
+            wrong.append(f"not caught: {name}: {expected}; reported: {own}")
+    return report("layering --self-test", wrong, f"{len(PLANTED)} planted files")
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--self-test":
+        sys.exit(self_test())
+    list_of_problems, number_of_files = check(sys.argv[1])
+    if number_of_files == 0:
+        list_of_problems.append("no source found: wrong folder?")
+    sys.exit(report("layering", list_of_problems, f"{number_of_files} files"))
