@@ -1,0 +1,131 @@
+#include "core/edges/dark_region.h"
+
+#include <algorithm>
+
+#include "core/edges/edge_search.h"
+
+namespace tubesight::core::edges {
+namespace {
+
+// A tube-end lies half in the lamp's brightest spot and half beside it: a threshold that followed
+// the bright rim would walk over the dim one to the next tube-end. 20 grey levels under Eq. 6.1 are
+// more than the inside of a tube-end ever shows.
+constexpr std::int32_t kMostFollowed = 240;
+
+constexpr int kAttempts = 4;
+
+struct Walk {
+  EdgePath path;
+  std::int32_t from = 0;
+  std::int32_t limit = 0;  ///< positions 0 .. limit - 1 exist
+  std::int32_t taps = 0;
+  std::int32_t reach = 0;
+};
+
+// One edge outwards from walk.from; tried again at half the threshold with the start moved inwards,
+// as the source does for edges that are difficult to detect.
+Edge edge_outwards(const Walk& walk, std::int32_t direction, DynamicThreshold& threshold) {
+  std::int32_t first = walk.from;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::int32_t lowest = walk.taps;
+    const std::int32_t highest = walk.limit - 2 - walk.taps;
+    first = std::clamp(first, lowest, highest);
+    const std::int32_t room = direction > 0 ? highest - first : first - lowest - 1;
+    const std::int32_t steps = std::min(walk.reach, room);
+    if (steps <= 0) {
+      return {};
+    }
+    const EdgePeak peak =
+        find_edge(walk.path, {first, direction, steps, walk.taps, threshold.for_taps(walk.taps)});
+    if (peak.found) {
+      threshold.follow(peak.gradient, walk.taps, kMostFollowed);
+      const EdgeReach reach{walk.taps == kVerticalTaps ? 2 : 4, walk.taps == kVerticalTaps ? 2 : 4};
+      const bool inside =
+          peak.position - reach.dark - 1 >= 0 && peak.position + reach.dark + 1 < walk.limit &&
+          peak.position - reach.bright - 2 >= 0 && peak.position + reach.bright + 2 < walk.limit;
+      Edge edge = inside ? refine_edge(walk.path, peak, direction, reach, 6) : Edge{};
+      if (!edge.found) {
+        // Sure of the rise, not of its middle: the peak is good enough for a bisection.
+        edge = {true, peak.position * 65536, 0};
+      }
+      return edge;
+    }
+    if (threshold.at_least()) {
+      return {};
+    }
+    threshold.halve();
+    first -= 2 * direction;
+  }
+  return {};
+}
+
+struct Span {
+  bool found = false;
+  std::int32_t low_q16 = 0;
+  std::int32_t high_q16 = 0;
+
+  [[nodiscard]] std::int32_t middle() const { return (low_q16 / 2 + high_q16 / 2) / 65536; }
+};
+
+Span span_around(const Walk& walk, DynamicThreshold& threshold) {
+  const Edge low = edge_outwards(walk, -1, threshold);
+  if (!low.found) {
+    return {};
+  }
+  const Edge high = edge_outwards(walk, 1, threshold);
+  return {high.found, low.position_q16, high.position_q16};
+}
+
+}  // namespace
+
+DarkRegion find_dark_region(const FieldView& field, std::int32_t u_px, std::int32_t v_px,
+                            std::int32_t reach_px, DynamicThreshold& threshold) {
+  const std::int32_t step = field.line_step;
+  const auto column_walk = [&](std::int32_t u, std::int32_t line) {
+    u = std::clamp(u, 2, field.width_px - 3);
+    return Walk{vertical_path(field, u), line, field.lines, kVerticalTaps, reach_px / step};
+  };
+  const std::int32_t start_line = (v_px - field.first_line) / step;
+  if (u_px < 0 || u_px >= field.width_px || start_line < 0 || start_line >= field.lines ||
+      field.width_px < 32 || field.lines < 16) {
+    return {};
+  }
+  Span vertical = span_around(column_walk(u_px, start_line), threshold);
+  if (!vertical.found) {
+    return {};
+  }
+  const std::int32_t line = std::clamp(vertical.middle(), 1, field.lines - 2);
+  const Span horizontal = span_around(
+      {horizontal_path(field, line), u_px, field.width_px, kHorizontalTaps, reach_px}, threshold);
+  if (!horizontal.found) {
+    return {};
+  }
+  vertical = span_around(column_walk(horizontal.middle(), line), threshold);
+  if (!vertical.found) {
+    return {};
+  }
+  const auto frame_q16 = [&](std::int32_t line_q16) {
+    return line_q16 * step + field.first_line * 65536;
+  };
+  return {true, horizontal.low_q16, horizontal.high_q16, frame_q16(vertical.low_q16),
+          frame_q16(vertical.high_q16)};
+}
+
+std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px, std::int32_t v_px,
+                             std::int32_t reach_u_px, std::int32_t reach_v_px) {
+  const std::int32_t line = (v_px - field.first_line) / field.line_step;
+  const std::int32_t reach_lines = reach_v_px / field.line_step;
+  const auto at = [&field](std::int32_t u, std::int32_t l) {
+    u = std::clamp(u, 0, field.width_px - 1);
+    l = std::clamp(l, 0, field.lines - 1);
+    return std::int32_t{field.pixels[static_cast<std::ptrdiff_t>(l) * field.stride_px + u]};
+  };
+  std::int32_t sum = 0;
+  for (std::int32_t i = 1; i <= 4; ++i) {
+    sum += at(u_px + reach_u_px * i / 4, line) + at(u_px - reach_u_px * i / 4, line) +
+           at(u_px, line + reach_lines * i / 4) + at(u_px, line - reach_lines * i / 4);
+  }
+  return sum / 16;
+}
+
+}  // namespace tubesight::core::edges

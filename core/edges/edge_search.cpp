@@ -1,0 +1,140 @@
+#include "core/edges/edge_search.h"
+
+#include <algorithm>
+
+namespace tubesight::core::edges {
+namespace {
+
+// A rise has passed its peak when the gradient did not grow for so many steps; one is noise.
+constexpr std::int32_t kDecliningSteps = 2;
+
+// How a walk reads pixels. The usual walk along a line has its offsets known to the compiler, which
+// halves its cost.
+struct AnySteps {
+  std::ptrdiff_t side = 0;
+  std::ptrdiff_t step = 1;  // outwards
+  std::int32_t taps = 0;
+};
+
+template <int kStep, int kTaps>
+struct UnitSteps {
+  std::ptrdiff_t side = 0;
+  static constexpr std::ptrdiff_t step = kStep;
+  static constexpr std::int32_t taps = kTaps;
+};
+
+// Positions of the peak are counted from the first step.
+template <typename Steps>
+EdgePeak walk(const Steps& steps, const std::uint8_t* first, const SearchRange& range) {
+  const std::uint8_t* above = first - steps.side;
+  const std::uint8_t* below = first + steps.side;
+  const auto pair = [&](std::int32_t position) {
+    return std::int32_t{above[position * steps.step]} + std::int32_t{below[position * steps.step]};
+  };
+  std::int32_t sum = 0;
+  for (std::int32_t i = 1; i <= steps.taps; ++i) {
+    sum += pair(i) - pair(-i);
+  }
+  std::int32_t here = pair(0);
+  EdgePeak peak;
+  std::int32_t best = range.threshold - 1;
+  std::int32_t declining = 0;
+  for (std::int32_t i = 0; i < range.steps; ++i) {
+    if (sum > best) {
+      best = sum;
+      peak = {true, i, sum};
+      declining = 0;
+    } else if (peak.found && ++declining >= kDecliningSteps) {
+      break;
+    }
+    // From position x to x + 1: x + taps + 1 enters ahead, x + 1 leaves it, x enters behind and
+    // x - taps leaves.
+    const std::int32_t next = pair(1);
+    sum += pair(steps.taps + 1) - next - here + pair(-steps.taps);
+    here = next;
+    above += steps.step;
+    below += steps.step;
+  }
+  return peak;
+}
+
+}  // namespace
+
+std::int32_t gradient(const EdgePath& path, std::int32_t position, std::int32_t direction,
+                      std::int32_t taps) {
+  std::int32_t sum = 0;
+  for (std::int32_t i = 1; i <= taps; ++i) {
+    sum += path.pair(position + direction * i) - path.pair(position - direction * i);
+  }
+  return sum;
+}
+
+EdgePeak find_edge(const EdgePath& path, const SearchRange& range) {
+  const std::uint8_t* first = path.origin + range.first * path.step;
+  EdgePeak peak;
+  if (path.step == 1 && range.taps == kHorizontalTaps) {
+    peak = range.direction > 0 ? walk(UnitSteps<1, kHorizontalTaps>{path.side}, first, range)
+                               : walk(UnitSteps<-1, kHorizontalTaps>{path.side}, first, range);
+  } else {
+    peak = walk(AnySteps{path.side, path.step * range.direction, range.taps}, first, range);
+  }
+  peak.position = range.first + range.direction * peak.position;
+  return peak;
+}
+
+Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
+                 const EdgeReach& reach, std::int32_t least_contrast) {
+  const std::ptrdiff_t step = path.step * direction;
+  const std::uint8_t* p = path.origin + peak.position * path.step;
+  const auto at = [p, step](std::int32_t offset) { return std::int32_t{p[offset * step]}; };
+
+  // Levels in halves of a grey value: two pixels each.
+  const std::int32_t dark2 = at(-reach.dark) + at(-reach.dark - 1);
+  std::int32_t bright2 = 0;
+  for (std::int32_t i = 1; i <= reach.bright; ++i) {
+    bright2 = std::max(bright2, at(i) + at(i + 1));
+  }
+  const std::int32_t contrast2 = bright2 - dark2;
+  if (contrast2 < 2 * least_contrast) {
+    return {};
+  }
+  const std::int32_t middle4 = dark2 + bright2;
+  std::int32_t offset = -reach.dark;
+  std::int32_t before = 4 * at(offset);
+  if (before >= middle4) {
+    return {};  // bright where the inside of the tube should be
+  }
+  while (offset <= reach.bright + 1) {
+    const std::int32_t here = 4 * at(offset + 1);
+    if (here >= middle4) {
+      const std::int32_t share_q16 = ((middle4 - before) * 65536) / (here - before);
+      const std::int32_t along_q16 = (offset * 65536) + share_q16;
+      return {true, peak.position * 65536 + direction * along_q16, contrast2 / 2};
+    }
+    before = here;
+    ++offset;
+  }
+  return {};
+}
+
+Edge weigh_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
+                std::int32_t least_contrast) {
+  const std::ptrdiff_t step = path.step * direction;
+  const std::uint8_t* p = path.origin + peak.position * path.step;
+  const auto at = [p, step](std::int32_t offset) { return std::int32_t{p[offset * step]}; };
+  const std::int32_t dark2 = at(-2) + at(-3);
+  const std::int32_t bright2 = std::max(at(1) + at(2), at(2) + at(3));
+  const std::int32_t contrast2 = bright2 - dark2;
+  if (contrast2 < 2 * least_contrast || 4 * at(-2) >= dark2 + bright2) {
+    return {};
+  }
+  // Each line counts as dark by the share that it lacks to the bright level.
+  std::int32_t lacking2 = 0;
+  for (std::int32_t offset = -1; offset <= 1; ++offset) {
+    lacking2 += std::clamp(bright2 - 2 * at(offset), 0, contrast2);
+  }
+  const std::int32_t along_q16 = (lacking2 * 65536) / contrast2 - 3 * 32768;
+  return {true, peak.position * 65536 + direction * along_q16, contrast2 / 2};
+}
+
+}  // namespace tubesight::core::edges
