@@ -1,0 +1,20 @@
+// From settings to the numbers of the path; apart from step() because it computes in double.
+
+#include "core/base/instantiate.h"
+#include "core/session/session.h"
+#include "core/tracking/tracking_setup.h"
+
+namespace tubesight::core::session {
+
+template <Scalar S>
+Result<void> Session<S>::configure(const SessionSettings& settings) {
+  TUBESIGHT_TRY(tracking::make_tracking_model<S>(settings, model_));
+  return map_.assign(settings.tubesheet);
+}
+
+#define TUBESIGHT_INSTANTIATE(S) \
+  template Result<void> Session<S>::configure(const SessionSettings&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::session

@@ -1,0 +1,148 @@
+#include "core/tracking/candidates.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/instantiate.h"
+#include "core/tracking/projection.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+// The part of the lattice that may show in the window.
+template <Scalar S>
+struct Block {
+  std::array<std::int32_t, 2> low{0, 0};  // lattice coordinates around the anchor
+  std::array<std::int32_t, 2> high{0, 0};
+  Vector2<Ratio<S>> least{};  // a box around the window on the image plane at unit distance
+  Vector2<Ratio<S>> most{};
+};
+
+template <Scalar S>
+Block<S> block_in_window(const TrackingModel<S>& model, const SheetPose<S>& pose) {
+  const auto& lattice = model.lattice.parameters();
+  const std::int32_t middle = (model.window_left_px + model.window_right_px) / 2;
+  const std::int32_t half = (model.window_top_px + model.window_bottom_px) / 2;
+  const std::array<std::array<std::int32_t, 2>, 8> border{
+      {{model.window_left_px, model.window_top_px},
+       {middle, model.window_top_px},
+       {model.window_right_px, model.window_top_px},
+       {model.window_left_px, half},
+       {model.window_right_px, half},
+       {model.window_left_px, model.window_bottom_px},
+       {middle, model.window_bottom_px},
+       {model.window_right_px, model.window_bottom_px}}};
+  Block<S> block;
+  bool first = true;
+  constexpr std::int32_t kMost = 31;
+  for (const auto& [u, v] : border) {
+    const Vector2<Px<S>> pixel{from_scaled<Px<S>>(u, 0), from_scaled<Px<S>>(v, 0)};
+    const auto plane = model.camera.to_plane(pixel);
+    block.least = first ? plane
+                        : Vector2<Ratio<S>>{std::min(block.least.x, plane.x),
+                                            std::min(block.least.y, plane.y)};
+    block.most =
+        first ? plane
+              : Vector2<Ratio<S>>{std::max(block.most.x, plane.x), std::max(block.most.y, plane.y)};
+    first = false;
+    const auto point = to_sheet<S>(model, pose, pixel);
+    for (std::size_t i = 0; i < 2; ++i) {
+      // A border that looks past the sheet's horizon: as far as the block goes.
+      const std::int32_t coordinate =
+          point ? to_scaled(narrow<Mm<S>>(product(lattice.inverse[i].x, point->x) +
+                                          product(lattice.inverse[i].y, point->y)),
+                            0)
+                : kMost;
+      const std::int32_t lowest = point ? coordinate : -kMost;
+      block.low[i] = std::max(std::min(block.low[i], lowest - 1), -kMost);
+      block.high[i] = std::min(std::max(block.high[i], coordinate + 1), kMost);
+    }
+  }
+  // The window's border is bent on the image plane; between the points looked at it strays by less.
+  const Ratio<S> slack = from_scaled<Ratio<S>>(1, 5);
+  block.least = block.least - Vector2<Ratio<S>>{slack, slack};
+  block.most = block.most + Vector2<Ratio<S>>{slack, slack};
+  return block;
+}
+
+template <Scalar S>
+bool in_box(const Block<S>& block, const Vector2<Ratio<S>>& point) {
+  return point.x >= block.least.x && point.x <= block.most.x && point.y >= block.least.y &&
+         point.y <= block.most.y;
+}
+
+// Keeps the list sorted by distance and within its capacity.
+template <Scalar S>
+void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
+  if (list.full()) {
+    if (list[list.size() - 1].distance2_px <= candidate.distance2_px) {
+      return;
+    }
+    list.truncate(list.size() - 1);
+  }
+  static_cast<void>(list.try_push_back(candidate));
+  for (std::int32_t i = list.size() - 1; i > 0; --i) {
+    if (list[i - 1].distance2_px <= candidate.distance2_px) {
+      break;
+    }
+    std::swap(list[i - 1], list[i]);
+  }
+}
+
+}  // namespace
+
+template <Scalar S>
+void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                     const SheetPose<S>& pose, CandidateList<S>& candidates) {
+  candidates.clear();
+  const Block<S> block = block_in_window<S>(model, pose);
+  const auto& basis = model.lattice.parameters().basis;
+  const std::int32_t optimum_u = to_scaled(model.optimum_px.x, 0);
+  const std::int32_t optimum_v = to_scaled(model.optimum_px.y, 0);
+  const auto address_at = [&](std::int32_t i, std::int32_t j) {
+    return TubeAddress{pose.anchor.row + i * basis[0].row + j * basis[1].row,
+                       pose.anchor.column + i * basis[0].column + j * basis[1].column};
+  };
+  const auto place = [&](std::int32_t i, std::int32_t j) {
+    return pose.origin + pose.along(model.lattice.offset(pose.anchor, address_at(i, j)));
+  };
+  const Vector3<Mm<S>> step = place(0, 1) - place(0, 0);
+  for (std::int32_t i = block.low[0]; i <= block.high[0]; ++i) {
+    Vector3<Mm<S>> center = place(i, block.low[1]);
+    for (std::int32_t j = block.low[1]; j <= block.high[1]; ++j, center = center + step) {
+      const auto plane = to_plane<S>(center);
+      if (!plane || !in_box<S>(block, *plane)) {
+        continue;
+      }
+      const auto pixel = model.camera.to_pixel(*plane);
+      if (!pixel) {
+        continue;
+      }
+      const std::int32_t u = to_scaled(pixel->x, 0);
+      const std::int32_t v = to_scaled(pixel->y, 0);
+      if (u < model.window_left_px || u > model.window_right_px || v < model.window_top_px ||
+          v > model.window_bottom_px) {
+        continue;
+      }
+      Candidate<S> candidate;
+      candidate.address = address_at(i, j);
+      candidate.state = map.state(candidate.address);
+      if (candidate.state == TubeState::kAbsent) {
+        continue;
+      }
+      candidate.local = model.lattice.offset(pose.anchor, candidate.address);
+      candidate.center_px = *pixel;
+      candidate.distance2_px =
+          (u - optimum_u) * (u - optimum_u) + (v - optimum_v) * (v - optimum_v);
+      insert<S>(candidates, candidate);
+    }
+  }
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                        \
+  template void list_candidates<S>(const TrackingModel<S>&, const tubesheet::SheetMap&, \
+                                   const SheetPose<S>&, CandidateList<S>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

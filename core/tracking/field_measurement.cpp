@@ -1,0 +1,260 @@
+#include "core/tracking/field_measurement.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "core/base/instantiate.h"
+#include "core/edges/dark_region.h"
+#include "core/edges/edge_search.h"
+#include "core/tracking/projection.h"
+#include "core/tracking/rim_outline.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+template <typename T>
+std::int32_t rounded(T value) {
+  return to_scaled(value, 0);
+}
+
+// A rim's bounding box in whole pixels.
+struct Box {
+  std::int32_t u = 0;
+  std::int32_t v = 0;
+  std::int32_t half_u = 0;
+  std::int32_t half_v = 0;
+};
+
+template <Scalar S>
+Box box_of(const RimOutline<S>& rim) {
+  return {rounded(rim.middle.x), rounded(rim.middle.y), rounded(rim.half_extent.x),
+          rounded(rim.half_extent.y)};
+}
+
+// A quick look whether a rim will leave the window: a tilted circle's image still reaches over 0.45
+// of its upright radius in every direction that a toolhead camera sees.
+template <Scalar S>
+bool cut_by_window(const TrackingModel<S>& model, const Vector2<Px<S>>& center, Mm<S> depth) {
+  const Mm<S> px_per_mm = quotient<Mm<S>>(model.camera.parameters().scale_px.y, depth);
+  const Mm<S> share = from_scaled<Mm<S>>(461, 10);
+  const std::int32_t reach = rounded(times(times(model.bore_radius_mm, share), px_per_mm)) - 2;
+  const std::int32_t u = rounded(center.x);
+  const std::int32_t v = rounded(center.y);
+  return u - reach < model.window_left_px || u + reach > model.window_right_px ||
+         v - reach < model.window_top_px || v + reach > model.window_bottom_px;
+}
+
+// A plug's hole is narrower than the tube-end: a wide upper edge on fillet sheets, a shadow between
+// rim and hole on flush ones [Fallon 6.5]. Both leave a dark region well below the rim's top.
+bool is_plug_hole(const edges::DarkRegion& region, const Box& box) {
+  if (!region.found) {
+    return false;
+  }
+  const std::int32_t rim_height = 2 * box.half_v * 65536;
+  const std::int32_t upper_edge = region.top_q16 - (box.v - box.half_v) * 65536;
+  const bool narrow = region.width_q16() < 2 * box.half_u * 65536 / 4 * 3 &&
+                      region.width_q16() > 2 * box.half_u * 65536 / 8;
+  const bool inside = std::abs(region.center_u_q16() / 65536 - box.u) < box.half_u * 2 / 3 &&
+                      std::abs(region.center_v_q16() / 65536 - box.v) < box.half_v;
+  return narrow && inside && upper_edge > rim_height / 6;
+}
+
+constexpr std::int32_t kLeastHalfHeightPx = 7;
+
+// The rim of a fillet weld is bright for a few pixels only, with its shadow behind: six pixels
+// ahead would average the two.
+constexpr std::int32_t kFilletTaps = 4;
+
+// What a tube-end that was not measured says about a plug.
+template <Scalar S>
+void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
+               const Box& box, std::int32_t range_px, Finding finding, FieldRecord<S>& record) {
+  bool plug = finding == Finding::kBright;
+  if (finding == Finding::kDisagrees) {
+    edges::DynamicThreshold threshold = record.light.edge_threshold;
+    plug = is_plug_hole(
+        edges::find_dark_region(field, box.u, box.v, box.half_u + range_px, threshold), box);
+  }
+  if (plug) {
+    record.plugs.saw_plug(address);
+  }
+  if (record.plugs.is_plug(address)) {
+    static_cast<void>(record.plugs_seen.try_push_back({address, center}));
+  }
+}
+
+}  // namespace
+
+template <Scalar S>
+FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field,
+                           const SheetPose<S>& pose, const CandidateList<S>& candidates,
+                           const LookRange& look, FieldRecord<S>& record) {
+  FindingCount count;
+  LightLevels& light = record.light;
+  const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
+  MeasurementBounds bounds;
+  bounds.thin_rim = model.weld == Weld::kFillet;
+  bounds.taps = bounds.thin_rim ? kFilletTaps : edges::kHorizontalTaps;
+  for (std::int32_t i = look.first; i < look.end; ++i) {
+    const Candidate<S>& candidate = candidates[i];
+    if (candidate.state != TubeState::kOpen) {
+      continue;
+    }
+    const Vector3<Mm<S>> center = pose.origin + pose.along(candidate.local);
+    if (cut_by_window<S>(model, candidate.center_px, center.z)) {
+      continue;
+    }
+    const auto rim = project_rim<S>(model, center, spokes);
+    if (!rim) {
+      continue;
+    }
+    const Box box = box_of<S>(*rim);
+    if (box.half_v < kLeastHalfHeightPx) {
+      continue;
+    }
+    ++count.looked_at;
+    TubeMeasurement<S> tube;
+    tube.address = candidate.address;
+    tube.local = candidate.local;
+    tube.predicted_px = rim->center;
+    const std::int32_t inside =
+        edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2);
+    Finding finding = Finding::kBright;
+    if (inside <= light.region_threshold) {
+      bounds.range_px = std::min(look.range_px, std::max(3, box.half_u / 2));
+      finding = measure_tube<S>(field, *rim, bounds, light.edge_threshold, tube);
+    }
+    if (finding == Finding::kMeasured) {
+      ++count.measured;
+      record.plugs.saw_open(candidate.address);
+      static_cast<void>(record.measured.try_push_back(tube));
+      // Midway between this tube-end's inside and its surroundings, followed slowly.
+      const std::int32_t middle = inside + tube.contrast / 2;
+      light.region_threshold += (middle - light.region_threshold) / 4;
+      light.region_threshold = std::max(light.region_threshold, 16);
+      continue;
+    }
+    count.bright += finding == Finding::kBright ? 1 : 0;
+    count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
+    note_plug<S>(field, candidate.address, rim->center, box, look.range_px, finding, record);
+  }
+  return count;
+}
+
+namespace {
+
+// A tube-end found by bisection near its predicted place, as a shift over the sheet.
+template <Scalar S>
+std::optional<Vector2<Mm<S>>> shift_of(const TrackingModel<S>& model, const FieldView& field,
+                                       const SheetPose<S>& pose, const Candidate<S>& candidate,
+                                       const RimSpokes<S>& spokes, LightLevels& light) {
+  const auto rim = project_rim<S>(model, pose.origin + pose.along(candidate.local), spokes);
+  if (!rim) {
+    return std::nullopt;
+  }
+  const Box box = box_of<S>(*rim);
+  // The predicted place first, then places most of a radius around it: the small local search.
+  constexpr std::array<std::array<std::int32_t, 2>, 9> kAround{
+      {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+  for (const auto& [du, dv] : kAround) {
+    const std::int32_t u = box.u + du * box.half_u * 3 / 4;
+    const std::int32_t v = box.v + dv * box.half_v * 3 / 4;
+    if (u < 0 || v < 0 || u >= field.width_px || v >= model.picture_height_px ||
+        edges::cross_hair_mean(field, u, v, 4, 4) > light.region_threshold) {
+      continue;
+    }
+    edges::DynamicThreshold threshold = light.edge_threshold;
+    const auto region =
+        edges::find_dark_region(field, u, v, std::max(box.half_u, box.half_v) * 2 + 4, threshold);
+    if (!region.found) {
+      continue;
+    }
+    const std::int32_t width = region.width_q16() / 65536;
+    const std::int32_t height = region.height_q16() / 65536;
+    // The width-to-height ratio's precaution against shadows, against the predicted size.
+    if (std::abs(width - 2 * box.half_u) > box.half_u / 2 + 2 ||
+        std::abs(height - 2 * box.half_v) > box.half_v / 2 + 3) {
+      continue;
+    }
+    const Vector2<Px<S>> center{from_scaled<Px<S>>(region.center_u_q16(), 16),
+                                from_scaled<Px<S>>(region.center_v_q16(), 16)};
+    const auto found = to_sheet<S>(model, pose, center);
+    const auto expected = to_sheet<S>(model, pose, rim->middle);
+    if (found && expected) {
+      return *found - *expected;
+    }
+  }
+  return std::nullopt;
+}
+
+template <typename M>
+M median(std::array<M, 8> values, std::int32_t count) {
+  // Eight at most: insertion.
+  for (std::size_t i = 1; i < static_cast<std::size_t>(count); ++i) {
+    for (std::size_t j = i; j > 0 && values[j] < values[j - 1]; --j) {
+      std::swap(values[j], values[j - 1]);
+    }
+  }
+  return values[static_cast<std::size_t>(count / 2)];
+}
+
+}  // namespace
+
+template <Scalar S>
+bool shift_onto_dark_regions(const TrackingModel<S>& model, const FieldView& field,
+                             const CandidateList<S>& candidates, Mm<S> reach_mm, LightLevels& light,
+                             SheetPose<S>& pose) {
+  using M = Mm<S>;
+  const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
+  std::array<M, 8> x{};
+  std::array<M, 8> y{};
+  std::int32_t count = 0;
+  std::int32_t looked_at = 0;
+  for (const Candidate<S>& candidate : candidates) {
+    if (count == 8 || looked_at == 16) {
+      break;
+    }
+    if (candidate.state != TubeState::kOpen) {
+      continue;
+    }
+    ++looked_at;
+    if (const auto shift = shift_of<S>(model, field, pose, candidate, spokes, light)) {
+      x[static_cast<std::size_t>(count)] = shift->x;
+      y[static_cast<std::size_t>(count)] = shift->y;
+      ++count;
+    }
+  }
+  if (count < 2) {
+    return false;
+  }
+  const Vector2<M> middle{median(x, count), median(y, count)};
+  // A tenth of the lattice step: what bisection, lean and heading leave between tube-ends.
+  const M near = times(model.lattice.parameters().shortest_step, from_scaled<M>(102, 10));
+  std::int32_t agreeing = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    if (absolute(x[i] - middle.x) < near && absolute(y[i] - middle.y) < near) {
+      ++agreeing;
+    }
+  }
+  if (agreeing < 2 || 2 * agreeing < count || absolute(middle.x) > reach_mm ||
+      absolute(middle.y) > reach_mm) {
+    return false;
+  }
+  pose.origin = pose.origin + pose.along(middle);
+  return true;
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                         \
+  template FindingCount measure_field<S>(const TrackingModel<S>&, const FieldView&,      \
+                                         const SheetPose<S>&, const CandidateList<S>&,   \
+                                         const LookRange&, FieldRecord<S>&);             \
+  template bool shift_onto_dark_regions<S>(const TrackingModel<S>&, const FieldView&,    \
+                                           const CandidateList<S>&, Mm<S>, LightLevels&, \
+                                           SheetPose<S>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/image_view.h"
+#include "core/base/scalar.h"
+#include "core/edges/dynamic_threshold.h"
+#include "core/tracking/candidates.h"
+#include "core/tracking/plug_memory.h"
+#include "core/tracking/pose_fit.h"
+#include "core/tracking/sheet_pose.h"
+#include "core/tracking/tracking_model.h"
+
+namespace tubesight::core::tracking {
+
+/// How the looks at all candidates of a field ended.
+struct FindingCount {
+  std::int32_t looked_at = 0;  ///< open tube-ends wholly inside the window
+  std::int32_t measured = 0;
+  std::int32_t bright = 0;  ///< no dark inside where one should be
+  std::int32_t disagreeing = 0;
+
+  FindingCount& operator+=(const FindingCount& other) {
+    looked_at += other.looked_at;
+    measured += other.measured;
+    bright += other.bright;
+    disagreeing += other.disagreeing;
+    return *this;
+  }
+};
+
+/// Light levels that the thresholds follow from field to field.
+struct LightLevels {
+  std::int32_t region_threshold = 60;  ///< a cross-hair's mean above this is sheet
+  edges::DynamicThreshold edge_threshold{};
+};
+
+/// A place of a recognised plug in this field.
+template <Scalar S>
+struct PlugSighting {
+  TubeAddress address{};
+  Vector2<Px<S>> center_px{};
+};
+
+template <Scalar S>
+using PlugList = StaticVector<PlugSighting<S>, 64>;
+
+/// What measure_field() works on from call to call.
+template <Scalar S>
+struct FieldRecord {
+  LightLevels light{};
+  PlugMemory plugs{};
+  PlugList<S> plugs_seen{};       ///< in this field
+  MeasurementList<S> measured{};  ///< in this field
+
+  void begin_field() {
+    plugs_seen.clear();
+    measured.clear();
+  }
+};
+
+/// Which candidates a call of measure_field() looks at, and how far around their rims.
+struct LookRange {
+  std::int32_t first = 0;  ///< position in the list
+  std::int32_t end = 0;    ///< behind the last
+  std::int32_t range_px = 3;
+};
+
+/// Measures every usable tube-end among the candidates: verifies it by the cross-hair, measures its
+/// rim, recognises plugs that no list names. Appends to the record.
+///
+/// Candidates' places are predicted anew by `pose`.
+template <Scalar S>
+[[nodiscard]] FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field,
+                                         const SheetPose<S>& pose,
+                                         const CandidateList<S>& candidates, const LookRange& look,
+                                         FieldRecord<S>& record);
+
+/// Shifts the predicted pose onto the tube-ends found by bisection from the predicted centres: for
+/// predictions up to 0.4 of a lattice step off, when searches across predicted rims would not
+/// reach.
+///
+/// Uses up to eight tube-ends nearest to the optimum point, which must agree. False when fewer than
+/// two are found where `reach_mm` allows them.
+template <Scalar S>
+[[nodiscard]] bool shift_onto_dark_regions(const TrackingModel<S>& model, const FieldView& field,
+                                           const CandidateList<S>& candidates, Mm<S> reach_mm,
+                                           LightLevels& light, SheetPose<S>& pose);
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,100 @@
+#include "core/tracking/motion.h"
+
+#include <algorithm>
+
+#include "core/base/instantiate.h"
+
+namespace tubesight::core::tracking {
+
+template <Scalar S>
+Unit<S> seconds(FieldTime span) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  const std::int64_t bounded = std::clamp<std::int64_t>(span.count(), 0, kSecond);
+  return from_scaled<Unit<S>>(divide_rounded(bounded << 30, kSecond), 30);
+}
+
+template <Scalar S>
+SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                     const ToolPoint<S>& tool, const Motion<S>& motion, Unit<S> span_s) {
+  SheetPose<S> predicted = pose;
+  if (!motion.known) {
+    return predicted;
+  }
+  using M = Mm<S>;
+  const auto during = [span_s](M rate) { return times(rate, span_s); };
+  move<S>(predicted,
+          {during(motion.turn_rad_s.x), during(motion.turn_rad_s.y), during(motion.turn_rad_s.z)},
+          {});
+  const auto turned = find_tool_point<S>(model, predicted);
+  if (!turned) {
+    return pose;
+  }
+  // The turn was about the anchor; the tool point is put where its own motion takes it.
+  const Vector2<M> target{tool.local.x + during(motion.velocity_mm_s.x),
+                          tool.local.y + during(motion.velocity_mm_s.y)};
+  const M rise = tool.height_mm + during(motion.approach_mm_s) - turned->height_mm;
+  const Vector3<M> over = predicted.along(turned->local - target);
+  predicted.origin = predicted.origin + over +
+                     Vector3<M>{times(rise, predicted.normal.x), times(rise, predicted.normal.y),
+                                times(rise, predicted.normal.z)};
+  return predicted;
+}
+
+template <Scalar S>
+Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s) {
+  using M = Mm<S>;
+  const M milliseconds = times(from_scaled<M>(1000, 0), span_s);
+  const M farthest = times(model.max_speed_mm_s, span_s);
+  const M interval_ms = motion.known ? times(from_scaled<M>(1000, 0), motion.interval_s) : M{};
+  // mm = m/s^2 s ms.
+  const M grown = times(times(model.max_acceleration_m_s2, convert<M>(span_s)),
+                        times(milliseconds + interval_ms, from_scaled<M>(1, 1)));
+  if (motion.known) {
+    return std::min(grown, farthest + farthest);
+  }
+  const M step = model.lattice.parameters().shortest_step;
+  const M unique = step - farthest - times(step, from_scaled<M>(1, 4));
+  return std::min({farthest, times(step, from_scaled<M>(3, 3)), std::max(unique, grown)});
+}
+
+template <Scalar S>
+Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,
+                         const SheetPose<S>& after, const ToolPoint<S>& tool_after,
+                         const Motion<S>& last, Unit<S> span_s) {
+  using M = Mm<S>;
+  Motion<S> motion;
+  if (span_s < from_scaled<Unit<S>>(1, 10)) {  // under a millisecond no rate can be told
+    return last;
+  }
+  motion.known = true;
+  motion.interval_s = span_s;
+  const M span = convert<M>(span_s);
+  const auto rate = [span](M distance) { return quotient<M>(distance, span); };
+  const auto moved = tool_after.local - tool_before.local;
+  motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
+  motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
+  // A small turn w takes each axis e to e + w x e: w = sum of e x e' / 2.
+  const auto turn = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
+                    cross<M>(before.normal, after.normal);
+  const M half = from_scaled<M>(1, 1);
+  const auto smoothed = [&](M turned, M rate_before) {
+    const M now = times(rate(times(turned, half)), half);
+    return last.known ? now + times(rate_before, half) : now;
+  };
+  motion.turn_rad_s = {smoothed(turn.x, last.turn_rad_s.x), smoothed(turn.y, last.turn_rad_s.y),
+                       smoothed(turn.z, last.turn_rad_s.z)};
+  return motion;
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                                   \
+  template Unit<S> seconds<S>(FieldTime);                                                          \
+  template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
+                                   const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
+  template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>);              \
+  template Motion<S> motion_between<S>(const SheetPose<S>&, const ToolPoint<S>&,                   \
+                                       const SheetPose<S>&, const ToolPoint<S>&, const Motion<S>&, \
+                                       Unit<S>);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/field.h"
+#include "core/base/scalar.h"
+#include "core/base/vector3.h"
+#include "core/tracking/sheet_pose.h"
+#include "core/tracking/tool_point.h"
+#include "core/tracking/tracking_model.h"
+
+namespace tubesight::core::tracking {
+
+/// A time span of a field or a few in seconds, up to one second.
+template <Scalar S>
+[[nodiscard]] Unit<S> seconds(FieldTime span);
+
+/// How the tool moved between the last two good fields.
+template <Scalar S>
+struct Motion {
+  bool known = false;
+  Unit<S> interval_s{};            ///< between those fields
+  Vector2<Mm<S>> velocity_mm_s{};  ///< of the tool point over the sheet, sheet axes
+  Mm<S> approach_mm_s{};           ///< of the height
+  Vector3<Mm<S>> turn_rad_s{};     ///< of the sheet before the camera, camera axes
+};
+
+/// The pose after `span_s` at constant motion.
+template <Scalar S>
+[[nodiscard]] SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                   const ToolPoint<S>& tool, const Motion<S>& motion,
+                                   Unit<S> span_s);
+
+/// How far from the predicted tool point the tool can be after `span_s` within the limits of
+/// [motion], mm.
+///
+/// The velocity is a mean over the last interval and so half an interval old: a constant
+/// acceleration a leads a span (span + interval) / 2 * a astray. Nothing moves farther than at the
+/// greatest speed from one extreme to the other.
+///
+/// After a start the motion is unknown. What is seen at a distance d from the last place is then
+/// the same tube-end as long as d plus the greatest speed's way stays below a lattice step; beyond,
+/// the tool is taken to have been at rest when an operator clicked into its picture.
+template <Scalar S>
+[[nodiscard]] Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion,
+                                 Unit<S> span_s);
+
+/// The motion from one fitted pose to the next; both with the same anchor.
+template <Scalar S>
+[[nodiscard]] Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,
+                                       const SheetPose<S>& after, const ToolPoint<S>& tool_after,
+                                       const Motion<S>& last, Unit<S> span_s);
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,61 @@
+#include "core/tracking/projection.h"
+
+#include "core/base/instantiate.h"
+
+namespace tubesight::core::tracking {
+
+template <Scalar S>
+std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point) {
+  if (point.z < from_scaled<Mm<S>>(8, 0)) {
+    return std::nullopt;
+  }
+  const Mm<S> reach = point.z + point.z;
+  if (absolute(point.x) > reach || absolute(point.y) > reach) {
+    return std::nullopt;
+  }
+  return Vector2<Ratio<S>>{quotient<Ratio<S>>(point.x, point.z),
+                           quotient<Ratio<S>>(point.y, point.z)};
+}
+
+template <Scalar S>
+std::optional<Vector2<Px<S>>> to_pixel(const TrackingModel<S>& model, const Vector3<Mm<S>>& point) {
+  const auto plane = to_plane<S>(point);
+  return plane ? model.camera.to_pixel(*plane) : std::nullopt;
+}
+
+template <Scalar S>
+std::optional<Vector2<Px<S>>> project(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                      const Vector2<Mm<S>>& local) {
+  return to_pixel<S>(model, pose.origin + pose.along(local));
+}
+
+template <Scalar S>
+std::optional<Vector2<Mm<S>>> to_sheet(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                       const Vector2<Px<S>>& pixel) {
+  const auto plane = model.camera.to_plane(pixel);
+  const Vector3<Ratio<S>> ray{plane.x, plane.y, Ratio<S>(1)};
+  const Mm<S> slope = narrow<Mm<S>>(dot(ray, pose.normal));
+  const Mm<S> distance = narrow<Mm<S>>(dot(pose.normal, pose.origin));
+  // Depths beyond 1500 mm are refused before the division can leave the format.
+  if (slope < from_scaled<Mm<S>>(1, 5) || distance < Mm<S>{} ||
+      distance > times(slope, from_scaled<Mm<S>>(1500, 0))) {
+    return std::nullopt;
+  }
+  const Mm<S> depth = quotient<Mm<S>>(distance, slope);
+  const Vector3<Mm<S>> point{times(depth, ray.x), times(depth, ray.y), depth};
+  const Vector3<Mm<S>> d = point - pose.origin;
+  return Vector2<Mm<S>>{narrow<Mm<S>>(dot(pose.x_axis, d)), narrow<Mm<S>>(dot(pose.y_axis, d))};
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                                   \
+  template std::optional<Vector2<Ratio<S>>> to_plane<S>(const Vector3<Mm<S>>&);                    \
+  template std::optional<Vector2<Px<S>>> to_pixel<S>(const TrackingModel<S>&,                      \
+                                                     const Vector3<Mm<S>>&);                       \
+  template std::optional<Vector2<Px<S>>> project<S>(const TrackingModel<S>&, const SheetPose<S>&,  \
+                                                    const Vector2<Mm<S>>&);                        \
+  template std::optional<Vector2<Mm<S>>> to_sheet<S>(const TrackingModel<S>&, const SheetPose<S>&, \
+                                                     const Vector2<Px<S>>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

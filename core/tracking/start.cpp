@@ -1,0 +1,230 @@
+#include "core/tracking/start.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "core/base/instantiate.h"
+#include "core/edges/dark_region.h"
+#include "core/tracking/projection.h"
+#include "core/tracking/rim_outline.h"
+#include "core/tracking/tool_point.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+// A clicked tube-end: where it is on the virtual plane (at unit distance) and on the sheet.
+template <Scalar S>
+struct Anchor {
+  TubeAddress address{};
+  edges::DarkRegion region{};
+  Vector2<Mm<S>> seen{};
+  Vector2<Mm<S>> local{};  // mm from the first click's tube
+};
+
+template <Scalar S>
+using AnchorList = StaticVector<Anchor<S>, kMaxStartPoints>;
+
+template <Scalar S>
+StartRefusal find_anchors(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                          const FieldView& field, const StartClickList& clicks, LightLevels& light,
+                          AnchorList<S>& anchors) {
+  for (const StartClick& click : clicks) {
+    const TubeState state = map.state(click.address);
+    if (state == TubeState::kAbsent) {
+      return StartRefusal::kAddresses;
+    }
+    Anchor<S> anchor;
+    anchor.address = click.address;
+    edges::DynamicThreshold threshold = light.edge_threshold;
+    // A tube-end fills a third of the picture at most.
+    anchor.region = edges::find_dark_region(field, click.u_q16 / 65536, click.v_q16 / 65536,
+                                            model.picture_width_px / 4, threshold);
+    if (!anchor.region.found) {
+      return StartRefusal::kNoTubeThere;
+    }
+    const auto plane =
+        model.camera.to_plane({from_scaled<Px<S>>(anchor.region.center_u_q16(), 16),
+                               from_scaled<Px<S>>(anchor.region.center_v_q16(), 16)});
+    const auto seen = model.virtual_plane.from_image(plane);
+    if (!seen) {
+      return StartRefusal::kNoTubeThere;
+    }
+    anchor.seen = *seen;
+    anchor.local = model.lattice.offset(clicks[0].address, click.address);
+    for (const Anchor<S>& other : anchors) {
+      if (std::abs(other.region.center_u_q16() - anchor.region.center_u_q16()) <
+              other.region.width_q16() / 2 &&
+          std::abs(other.region.center_v_q16() - anchor.region.center_v_q16()) <
+              other.region.height_q16() / 2) {
+        return StartRefusal::kSameTubeTwice;
+      }
+    }
+    static_cast<void>(anchors.try_push_back(anchor));
+  }
+  return StartRefusal::kNone;
+}
+
+// Similarity of the virtual plane: seen = middle_seen + turn (local - middle_local), with
+// turn = [a -b; b a] per mm.
+template <Scalar S>
+struct Similarity {
+  Vector2<Mm<S>> middle_seen{};
+  Vector2<Mm<S>> middle_local{};
+  Unit<S> a{};
+  Unit<S> b{};
+};
+
+template <Scalar S>
+Vector2<Mm<S>> mean(const AnchorList<S>& anchors, Vector2<Mm<S>> Anchor<S>::*member) {
+  const Mm<S> share = quotient<Mm<S>>(Mm<S>(1), from_scaled<Mm<S>>(anchors.size(), 0));
+  Vector2<Mm<S>> sum{};
+  for (const Anchor<S>& anchor : anchors) {
+    sum = sum + Vector2<Mm<S>>{times((anchor.*member).x, share), times((anchor.*member).y, share)};
+  }
+  return sum;
+}
+
+// Least squares for the similarity; false when the clicks' addresses contradict it by more than an
+// eighth of the distances: lean of a degree and rough bisection stay well below.
+template <Scalar S>
+bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
+  using M = Mm<S>;
+  fit.middle_seen = mean<S>(anchors, &Anchor<S>::seen);
+  fit.middle_local = mean<S>(anchors, &Anchor<S>::local);
+  M along{};
+  M across{};
+  M size{};
+  // In units of 8 mm: pitches of up to 300 mm apart keep their squares in range.
+  const M scale = from_scaled<M>(1, 3);
+  for (const Anchor<S>& anchor : anchors) {
+    const auto seen = anchor.seen - fit.middle_seen;
+    const auto local = anchor.local - fit.middle_local;
+    const M x = times(local.x, scale);
+    const M y = times(local.y, scale);
+    along += narrow<M>(product(x, seen.x) + product(y, seen.y));
+    across += narrow<M>(product(x, seen.y) - product(y, seen.x));
+    size += narrow<M>(product(x, x) + product(y, y));
+  }
+  if (size < from_scaled<M>(1, 4)) {
+    return false;
+  }
+  const M a = quotient<M>(along, size);  // per 8 mm
+  const M b = quotient<M>(across, size);
+  M error{};
+  M extent{};
+  for (const Anchor<S>& anchor : anchors) {
+    const auto seen = anchor.seen - fit.middle_seen;
+    const auto local = anchor.local - fit.middle_local;
+    const M x = times(local.x, scale);
+    const M y = times(local.y, scale);
+    const M ex = seen.x - narrow<M>(product(a, x) - product(b, y));
+    const M ey = seen.y - narrow<M>(product(b, x) + product(a, y));
+    error += narrow<M>(product(ex, ex) + product(ey, ey));
+    extent += narrow<M>(product(seen.x, seen.x) + product(seen.y, seen.y));
+  }
+  fit.a = convert<Unit<S>>(times(a, scale));
+  fit.b = convert<Unit<S>>(times(b, scale));
+  return times(error, from_scaled<M>(64, 0)) < extent;
+}
+
+// A level sheet whose picture on the virtual plane is the similarity.
+template <Scalar S>
+StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit, TubeAddress anchor,
+                        SheetPose<S>& pose) {
+  using U = Unit<S>;
+  using M = Mm<S>;
+  // Widened by 32: elements are around 1/200 per mm.
+  const M a = times(convert<M>(fit.a), from_scaled<M>(32, 0));
+  const M b = times(convert<M>(fit.b), from_scaled<M>(32, 0));
+  const M length = square_root(times(a, a) + times(b, b));
+  if (length < from_scaled<M>(1, 5)) {
+    return StartRefusal::kHeight;  // over 1000 mm away
+  }
+  const M depth = quotient<M>(from_scaled<M>(32, 0), length);
+  const U cosine = quotient<U>(a, length);
+  const U sine = quotient<U>(b, length);
+  const auto& ex = model.virtual_plane.x_axis();
+  const auto& ey = model.virtual_plane.y_axis();
+  const auto& ez = model.virtual_plane.normal();
+  const auto mix = [](const Vector3<U>& p, U cp, const Vector3<U>& q, U cq) {
+    return Vector3<U>{narrow<U>(product(p.x, cp) + product(q.x, cq)),
+                      narrow<U>(product(p.y, cp) + product(q.y, cq)),
+                      narrow<U>(product(p.z, cp) + product(q.z, cq))};
+  };
+  pose.anchor = anchor;
+  pose.x_axis = mix(ex, cosine, ey, sine);
+  pose.y_axis = mix(ex, -sine, ey, cosine);
+  pose.normal = ez;
+  const auto deep = [&](U x, U y, U z) {
+    return times(depth, narrow<M>(product(x, fit.middle_seen.x) + product(y, fit.middle_seen.y) +
+                                  product(z, M(1))));
+  };
+  pose.origin = Vector3<M>{deep(ex.x, ey.x, ez.x), deep(ex.y, ey.y, ez.y), deep(ex.z, ey.z, ez.z)};
+  const auto middle = pose.along(fit.middle_local);
+  pose.origin = pose.origin - middle;
+  const auto tool = find_tool_point<S>(model, pose);
+  // Docked tips stand in the tube by a few mm at most; nobody works 250 mm below the sheet.
+  if (!tool || tool->height_mm < from_scaled<M>(-15, 0) ||
+      tool->height_mm > from_scaled<M>(250, 0)) {
+    return StartRefusal::kHeight;
+  }
+  return StartRefusal::kNone;
+}
+
+// The clicked tube-ends must be as large as bores at that distance look.
+template <Scalar S>
+bool sizes_fit(const TrackingModel<S>& model, const SheetPose<S>& pose,
+               const AnchorList<S>& anchors) {
+  const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
+  for (const Anchor<S>& anchor : anchors) {
+    const auto rim = project_rim<S>(model, pose.origin + pose.along(anchor.local), spokes);
+    if (!rim) {
+      return false;
+    }
+    const std::int32_t predicted = 2 * to_scaled(rim->half_extent.x, 16);
+    if (std::abs(anchor.region.width_q16() - predicted) > predicted / 4) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+template <Scalar S>
+StartRefusal find_start_pose(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                             const FieldView& field, const StartClickList& clicks,
+                             LightLevels& light, SheetPose<S>& pose) {
+  if (clicks.size() < 3) {
+    return StartRefusal::kTooFew;
+  }
+  AnchorList<S> anchors;
+  if (const auto refusal = find_anchors<S>(model, map, field, clicks, light, anchors);
+      refusal != StartRefusal::kNone) {
+    return refusal;
+  }
+  Similarity<S> similarity;
+  if (!fit_similarity<S>(anchors, similarity)) {
+    return StartRefusal::kAddresses;
+  }
+  SheetPose<S> level;
+  if (const auto refusal = level_pose<S>(model, similarity, clicks[0].address, level);
+      refusal != StartRefusal::kNone) {
+    return refusal;
+  }
+  if (!sizes_fit<S>(model, level, anchors)) {
+    return StartRefusal::kSize;
+  }
+  pose = level;
+  return StartRefusal::kNone;
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                                  \
+  template StartRefusal find_start_pose<S>(const TrackingModel<S>&, const tubesheet::SheetMap&,   \
+                                           const FieldView&, const StartClickList&, LightLevels&, \
+                                           SheetPose<S>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,57 @@
+#include "core/tracking/tool_point.h"
+
+#include "core/base/instantiate.h"
+#include "core/tracking/pose_fit.h"
+
+namespace tubesight::core::tracking {
+
+template <Scalar S>
+std::optional<ToolPoint<S>> find_tool_point(const TrackingModel<S>& model,
+                                            const SheetPose<S>& pose) {
+  using M = Mm<S>;
+  const auto& axis = model.virtual_plane.normal();
+  const M slope = narrow<M>(dot(pose.normal, axis));
+  if (slope < from_scaled<M>(29, 5)) {
+    return std::nullopt;
+  }
+  ToolPoint<S> tool;
+  tool.height_mm = narrow<M>(dot(pose.normal, pose.origin - model.tip_mm));
+  const M reach = quotient<M>(tool.height_mm, slope);
+  tool.point =
+      model.tip_mm + Vector3<M>{times(reach, axis.x), times(reach, axis.y), times(reach, axis.z)};
+  const Vector3<M> d = tool.point - pose.origin;
+  tool.local = {narrow<M>(dot(pose.x_axis, d)), narrow<M>(dot(pose.y_axis, d))};
+  return tool;
+}
+
+template <Scalar S>
+Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
+                           const NormalEquations<S>& equations) {
+  using M = Mm<S>;
+  // A turn w moves the sheet at the tool point by w x d, a shift t by t; both move the point the
+  // other way over the sheet.
+  const Vector3<M> d = tool.point - pose.origin;
+  const M per_unknown = from_scaled<M>(1, 7);
+  const auto deviation = [&](const Vector3<Unit<S>>& axis) {
+    const Vector3<M> lever = cross<M>(d, axis);
+    return equations.deviation({times(lever.x, per_unknown), times(lever.y, per_unknown),
+                                times(lever.z, per_unknown), convert<M>(axis.x), convert<M>(axis.y),
+                                convert<M>(axis.z)});
+  };
+  // Bounded: a hundred millimetres and a thousand are the same "unknown", and squares must fit.
+  const M limit = from_scaled<M>(30, 0);
+  const auto bounded = [limit](M value) { return value < limit ? value : limit; };
+  const M x = bounded(deviation(pose.x_axis));
+  const M y = bounded(deviation(pose.y_axis));
+  return times(square_root(times(x, x) + times(y, y)), from_scaled<M>(kEdgeDeviationQ10, 10));
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                   \
+  template std::optional<ToolPoint<S>> find_tool_point<S>(const TrackingModel<S>&, \
+                                                          const SheetPose<S>&);    \
+  template Mm<S> tool_point_deviation<S>(const SheetPose<S>&, const ToolPoint<S>&, \
+                                         const NormalEquations<S>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking

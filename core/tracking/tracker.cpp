@@ -1,0 +1,352 @@
+#include "core/tracking/tracker.h"
+
+#include <algorithm>
+
+#include "core/base/instantiate.h"
+#include "core/tracking/picture_light.h"
+#include "core/tracking/plane_length.h"
+#include "core/tracking/projection.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+template <typename T>
+std::int32_t rounded(T value) {
+  return to_scaled(value, 0);
+}
+
+// 0.4 of the shortest step: beyond, the nearest tube-end might be a neighbour.
+template <Scalar S>
+Mm<S> address_limit(const TrackingModel<S>& model) {
+  return times(model.lattice.parameters().shortest_step, from_scaled<Mm<S>>(410, 10));
+}
+
+// What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
+template <typename M>
+M systematic_mm() {
+  return from_scaled<M>(102, 10);
+}
+
+template <Scalar S>
+PosePrior<S> prior_from_last_field() {
+  PosePrior<S> prior;
+  // Lean 0.5 degrees; turn 0.1 degrees and height 0.5 mm a field: kEdgeDeviation^2 / sigma^2.
+  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
+  prior.turn_weight = from_scaled<Mm<S>>(819, 10);
+  prior.height_weight = from_scaled<Mm<S>>(164, 10);
+  return prior;
+}
+
+template <Scalar S>
+PosePrior<S> prior_at_start() {
+  PosePrior<S> prior;
+  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
+  return prior;
+}
+
+}  // namespace
+
+template <Scalar S>
+void Tracker<S>::request_start(const StartClickList& clicks) {
+  clicks_ = clicks;
+  start_requested_ = true;
+}
+
+template <Scalar S>
+void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
+  measured_now_ = false;
+  record_.begin_field();
+  static_cast<void>(take_overflow_flag());
+  if (start_requested_) {
+    start_requested_ = false;
+    start(field);
+  } else if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
+    follow(field);
+  }
+  if (take_overflow_flag() && state_ != TrackState::kWaiting) {
+    lose(Reason::kArithmetic);
+  }
+  report(field, sighting, tubes);
+}
+
+template <Scalar S>
+void Tracker<S>::start(const Field& field) {
+  state_ = TrackState::kWaiting;
+  reason_ = Reason::kStartRefused;
+  primary_known_ = false;
+  motion_ = {};
+  contradictions_ = 0;
+  record_.plugs.clear();
+  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
+  record_.light.region_threshold = model_->region_threshold;
+  if (field.status != FieldStatus::kGood) {
+    start_refusal_ = StartRefusal::kPicture;
+    return;
+  }
+  SheetPose<S> pose;
+  start_refusal_ = find_start_pose<S>(*model_, *map_, field.pixels, clicks_, record_.light, pose);
+  if (start_refusal_ != StartRefusal::kNone) {
+    return;
+  }
+  // The rough pose of three bisected tube-ends is refined on the whole window until it settles.
+  Outcome outcome;
+  outcome.pose = pose;
+  for (int round = 0; round < 4; ++round) {
+    outcome = observe(field.pixels, outcome.pose, from_scaled<Mm<S>>(2, 0), round == 3);
+    if (!outcome.fitted) {
+      break;
+    }
+  }
+  if (!outcome.fitted || outcome.contradiction || outcome.fit.used < 3) {
+    start_refusal_ = StartRefusal::kPicture;
+    record_.begin_field();  // addresses that were refuted are not told
+    return;
+  }
+  accept(outcome, field, Unit<S>{});
+}
+
+template <Scalar S>
+typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
+                                                 const SheetPose<S>& predicted, Mm<S> reach_mm,
+                                                 bool confirm_all) {
+  using M = Mm<S>;
+  Outcome outcome;
+  outcome.pose = predicted;
+  const auto light = judge_light(field, model_->window_left_px, model_->window_top_px,
+                                 model_->window_right_px, model_->window_bottom_px);
+  if (light != PictureLight::kUsable) {
+    outcome.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
+    return outcome;
+  }
+  list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
+  // Pixels per mm at the anchor, in the middle of the view.
+  const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, outcome.pose.origin.z);
+  std::int32_t range_px = 3 + rounded(times(reach_mm, px_per_mm));
+  if (range_px > 9) {
+    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach_mm + systematic_mm<M>(),
+                                    record_.light, outcome.pose)) {
+      outcome.trouble = Reason::kNoTubes;
+      outcome.contradiction = true;
+      return outcome;
+    }
+    list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
+    range_px = 6;
+  }
+  const FindingCount found = measure(field, range_px, outcome);
+  // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
+  outcome.contradiction = found.bright > std::max(outcome.fit.used, 2) ||
+                          (confirm_all && 2 * found.measured < found.looked_at);
+  if (!outcome.fit.solved || outcome.fit.used < 2) {
+    outcome.trouble = Reason::kNoTubes;
+    return outcome;
+  }
+  const auto tool = find_tool_point<S>(*model_, outcome.pose);
+  if (!tool) {
+    outcome.trouble = Reason::kNoTubes;
+    outcome.contradiction = true;
+    return outcome;
+  }
+  outcome.tool = *tool;
+  const M picture = tool_point_deviation<S>(outcome.pose, *tool, equations_);
+  outcome.deviation_mm = plane_length(Vector2<M>{picture, systematic_mm<M>()});
+  outcome.fitted = true;
+  return outcome;
+}
+
+// Looks around the predicted rims as far as the prediction may be off for the nearest few tube-ends
+// only; they tell the motion, and the others are looked for closely.
+template <Scalar S>
+FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, Outcome& outcome) {
+  constexpr std::int32_t kScouts = 6;
+  constexpr std::int32_t kCloseRangePx = 3;
+  record_.begin_field();
+  const PosePrior<S> prior = motion_.known ? prior_from_last_field<S>() : prior_at_start<S>();
+  FindingCount found;
+  std::int32_t first = 0;
+  if (range_px > kCloseRangePx) {
+    while (first < candidates_.size() && record_.measured.size() < kScouts) {
+      found += measure_field<S>(*model_, field, outcome.pose, candidates_,
+                                {first, first + 1, range_px}, record_);
+      ++first;
+    }
+    outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
+    if (!outcome.fit.solved) {
+      return found;
+    }
+  }
+  found += measure_field<S>(*model_, field, outcome.pose, candidates_,
+                            {first, candidates_.size(), kCloseRangePx}, record_);
+  outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
+  return found;
+}
+
+template <Scalar S>
+void Tracker<S>::follow(const Field& field) {
+  using M = Mm<S>;
+  const FieldTime span = field.mid_exposure - last_time_;
+  if (span.count() <= 0) {
+    lose(Reason::kTime);
+    return;
+  }
+  if (span >= std::chrono::seconds(1)) {
+    lose(Reason::kGap);
+    return;
+  }
+  const Unit<S> span_s = seconds<S>(span);
+  const M reach = reachable_mm<S>(*model_, motion_, span_s);
+  const M uncertain = reach + deviation_mm_ + deviation_mm_ + deviation_mm_;
+  const bool coasting = reason_ != Reason::kNone && state_ == TrackState::kDegraded &&
+                        reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
+  if (uncertain > address_limit<S>(*model_)) {
+    lose(coasting ? Reason::kCoasted : Reason::kGap);
+    return;
+  }
+  const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
+  // A picture that refuted the prediction showed the sheet: what comes back must fit the motion as
+  // closely as if that field had been good, or it is another tube's neighbourhood.
+  const M believed =
+      contradictions_ > 0 ? reachable_mm<S>(*model_, motion_, motion_.interval_s) : reach;
+  if (field.status != FieldStatus::kGood) {
+    coast(Reason::kDamagedField, predicted, reach);
+    return;
+  }
+  const Outcome outcome = observe(field.pixels, predicted, believed, false);
+  if (outcome.contradiction) {
+    doubt(Reason::kJump, predicted, reach);
+    return;
+  }
+  if (!outcome.fitted) {
+    coast(outcome.trouble, predicted, reach);
+    return;
+  }
+  if (const Reason refused = gate(outcome, predicted, believed, span_s); refused != Reason::kNone) {
+    doubt(refused, predicted, reach);
+    return;
+  }
+  accept(outcome, field, span_s);
+}
+
+template <Scalar S>
+Reason Tracker<S>::gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
+                        Unit<S> span_s) const {
+  using M = Mm<S>;
+  const auto expected = find_tool_point<S>(*model_, predicted);
+  if (!expected) {
+    return Reason::kJump;
+  }
+  const M noise = outcome.deviation_mm + outcome.deviation_mm + outcome.deviation_mm;
+  if (plane_length(outcome.tool.local - expected->local) > reach_mm + noise) {
+    return Reason::kJump;
+  }
+  const M farthest = times(model_->max_speed_mm_s, span_s);
+  const M moved = plane_length(outcome.tool.local - tool_.local);
+  // A quarter above the limit: its own control may overshoot, the box's noise adds to it.
+  if (moved > farthest + times(farthest, from_scaled<M>(1, 2)) + noise) {
+    return Reason::kSpeed;
+  }
+  return Reason::kNone;
+}
+
+template <Scalar S>
+void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span_s) {
+  if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
+    motion_ = motion_between<S>(pose_, tool_, outcome.pose, outcome.tool, motion_, span_s);
+  }
+  pose_ = outcome.pose;
+  tool_ = outcome.tool;
+  deviation_mm_ = outcome.deviation_mm;
+  last_time_ = field.mid_exposure;
+  contradictions_ = 0;
+  measured_now_ = true;
+  const bool few = outcome.fit.used < 3;
+  state_ = few ? TrackState::kDegraded : TrackState::kTracking;
+  reason_ = few ? Reason::kFewTubes : Reason::kNone;
+  choose_primary();
+  reanchor();
+  shown_ = pose_;
+  tool_shown_ = tool_;
+  strayed_mm_ = {};
+}
+
+// One field torn, repeated or of noise is passed over; three in a row are a jump.
+template <Scalar S>
+void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm) {
+  constexpr std::int32_t kMostContradictions = 2;
+  if (++contradictions_ > kMostContradictions || !motion_.known) {
+    lose(reason);
+    return;
+  }
+  coast(reason, predicted, reach_mm);
+}
+
+template <Scalar S>
+void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm) {
+  const auto tool = find_tool_point<S>(*model_, predicted);
+  if (!tool) {
+    lose(Reason::kJump);
+    return;
+  }
+  state_ = TrackState::kDegraded;
+  reason_ = reason;
+  record_.begin_field();
+  shown_ = predicted;
+  tool_shown_ = *tool;
+  strayed_mm_ = reach_mm;
+}
+
+template <Scalar S>
+void Tracker<S>::lose(Reason reason) {
+  state_ = TrackState::kLost;
+  reason_ = reason;
+  primary_known_ = false;
+  record_.begin_field();
+}
+
+// The measured tube-end nearest to the optimum point, kept until another is nearer by 10 %.
+template <Scalar S>
+void Tracker<S>::choose_primary() {
+  const auto distance2 = [this](const TubeMeasurement<S>& tube) {
+    const std::int32_t u = rounded(tube.center_px.x) - rounded(model_->optimum_px.x);
+    const std::int32_t v = rounded(tube.center_px.y) - rounded(model_->optimum_px.y);
+    return u * u + v * v;
+  };
+  const TubeMeasurement<S>* nearest = nullptr;
+  const TubeMeasurement<S>* kept = nullptr;
+  for (const auto& tube : record_.measured) {
+    if (!tube.used) {
+      continue;
+    }
+    if (nearest == nullptr || distance2(tube) < distance2(*nearest)) {
+      nearest = &tube;
+    }
+    if (primary_known_ && tube.address == primary_) {
+      kept = &tube;
+    }
+  }
+  if (nearest == nullptr) {
+    return;
+  }
+  // 10 % in distance is 19 % in its square.
+  const bool stay = kept != nullptr && 100 * distance2(*nearest) >= 81 * distance2(*kept);
+  primary_ = stay ? kept->address : nearest->address;
+  primary_known_ = true;
+}
+
+// Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
+template <Scalar S>
+void Tracker<S>::reanchor() {
+  if (!primary_known_ || primary_ == pose_.anchor) {
+    return;
+  }
+  const auto shift = model_->lattice.offset(pose_.anchor, primary_);
+  pose_.origin = pose_.origin + pose_.along(shift);
+  pose_.anchor = primary_;
+  tool_.local = tool_.local - shift;
+  for (auto& tube : record_.measured) {
+    tube.local = tube.local - shift;
+  }
+}
+
+TUBESIGHT_INSTANTIATE_CLASS(Tracker)
+
+}  // namespace tubesight::core::tracking

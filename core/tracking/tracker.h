@@ -1,0 +1,112 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/base/field.h"
+#include "core/base/scalar.h"
+#include "core/base/sighting.h"
+#include "core/tracking/candidates.h"
+#include "core/tracking/field_measurement.h"
+#include "core/tracking/motion.h"
+#include "core/tracking/normal_equations.h"
+#include "core/tracking/pose_fit.h"
+#include "core/tracking/sheet_pose.h"
+#include "core/tracking/start.h"
+#include "core/tracking/tool_point.h"
+#include "core/tracking/tracking_model.h"
+#include "core/tubesheet/sheet_map.h"
+
+namespace tubesight::core::tracking {
+
+/// Tubes that a field's output can tell of: the measured ones and recognised plugs.
+using TubeSightingList = StaticVector<TubeSighting, kMaxTubesInView + 64>;
+
+/// Follows the tubesheet from field to field and names the tube above the guidetube [Fallon ch. 6].
+///
+/// An address is never guessed: it carries over by rounding to the lattice, and only while the
+/// region that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
+/// One thread; no heap, no clock; the same inputs leave the same bytes on every machine in fixed
+/// point. `model` and `map` outlive the tracker and do not change.
+template <Scalar S>
+class Tracker {
+ public:
+  Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
+      : model_(&model), map_(&map) {}
+
+  /// Takes clicks made in the field that the next step() gets; a running track is given up.
+  void request_start(const StartClickList& clicks);
+
+  /// Processes one field. Costs some 10,000 instructions a tube-end in view.
+  void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
+
+  /// Why the last start was refused.
+  [[nodiscard]] StartRefusal start_refusal() const { return start_refusal_; }
+
+  /// Where every tube of the window is expected after the last step() [Fallon 6.1]; empty unless
+  /// tracking.
+  void list_estimates(CandidateList<S>& estimates) const;
+
+  /// Image of a tube's centre after the last step(); false unless tracking and projectable.
+  [[nodiscard]] bool locate(TubeAddress address, ImagePoint& pixel) const;
+
+  /// The tube at a place of the picture after the last step(): the one whose cell holds the point.
+  /// False unless tracking or where no tube stands.
+  [[nodiscard]] bool identify(const ImagePoint& pixel, TubeAddress& address) const;
+
+ private:
+  struct Outcome {
+    bool fitted = false;
+    Reason trouble = Reason::kNone;  ///< why not
+    bool contradiction = false;      ///< the picture is good and refutes the prediction
+    PoseFit<S> fit{};
+    SheetPose<S> pose{};
+    ToolPoint<S> tool{};
+    Mm<S> deviation_mm{};
+  };
+
+  void start(const Field& field);
+  void follow(const Field& field);
+  [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
+                                Mm<S> reach_mm, bool confirm_all);
+  [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
+                                     Outcome& outcome);
+  [[nodiscard]] Reason gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
+                            Unit<S> span_s) const;
+  void accept(const Outcome& outcome, const Field& field, Unit<S> span_s);
+  void reanchor();
+  void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
+  void coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
+  void lose(Reason reason);
+  void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
+  void report_tool(Sighting& sighting) const;
+  void choose_primary();
+
+  const TrackingModel<S>* model_;
+  const tubesheet::SheetMap* map_;
+
+  TrackState state_ = TrackState::kWaiting;
+  Reason reason_ = Reason::kNoStart;
+  StartRefusal start_refusal_ = StartRefusal::kNone;
+  bool start_requested_ = false;
+  StartClickList clicks_;
+
+  SheetPose<S> pose_{};   ///< of the last good field
+  SheetPose<S> shown_{};  ///< of this field: fitted, or predicted while coasting
+  ToolPoint<S> tool_{};   ///< of pose_
+  ToolPoint<S> tool_shown_{};
+  Mm<S> deviation_mm_{};  ///< of tool_shown_, one standard deviation
+  Mm<S> strayed_mm_{};    ///< how far it may be off besides, while coasting
+  Motion<S> motion_{};
+  FieldTime last_time_{0};           ///< of the last good field
+  std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
+  bool measured_now_ = false;
+  bool primary_known_ = false;
+  TubeAddress primary_{};
+
+  FieldRecord<S> record_{};
+  CandidateList<S> candidates_{};
+  NormalEquations<S> equations_{};
+};
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/scalar.h"
+#include "core/base/settings.h"
+#include "core/base/vector3.h"
+#include "core/camera/camera_model.h"
+#include "core/camera/virtual_plane.h"
+#include "core/tubesheet/lattice.h"
+
+namespace tubesight::core::tracking {
+
+/// What stays the same for a whole session, in the numbers of the path; made by
+/// make_tracking_model() in tracking_setup.h.
+template <Scalar S>
+struct TrackingModel {
+  camera::CameraModel<S> camera;
+  camera::VirtualPlane<S> virtual_plane;  ///< its axes are the tool's, in the camera frame
+  Vector3<Mm<S>> tip_mm{};                ///< the guidetube's tip in the camera frame
+  tubesheet::Lattice<S> lattice;
+  Mm<S> bore_radius_mm{};
+  Weld weld = Weld::kFlush;
+  std::int32_t picture_width_px = 0;
+  std::int32_t picture_height_px = 0;
+
+  std::int32_t window_left_px = 0;  ///< search window, inclusive
+  std::int32_t window_top_px = 0;
+  std::int32_t window_right_px = 0;
+  std::int32_t window_bottom_px = 0;
+  Vector2<Px<S>> optimum_px{};
+
+  Mm<S> max_speed_mm_s{};
+  Mm<S> max_acceleration_m_s2{};  ///< in metres: 3000 mm/s^2 and more leave the format
+  Mm<S> aligned_within_mm{};
+  std::int32_t initial_threshold = 200;
+  std::int32_t region_threshold = 60;
+};
+
+}  // namespace tubesight::core::tracking

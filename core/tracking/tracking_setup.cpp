@@ -1,0 +1,75 @@
+#include "core/tracking/tracking_setup.h"
+
+#include <array>
+
+#include "core/base/instantiate.h"
+#include "core/base/transform.h"
+#include "core/camera/camera_setup.h"
+#include "core/tubesheet/tubesheet_setup.h"
+
+namespace tubesight::core::tracking {
+
+template <Scalar S>
+Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<S>& model) {
+  const auto camera = camera::make_camera_model<S>(settings.camera);
+  if (!camera) {
+    return Unexpected(camera.error());
+  }
+  const auto lattice = tubesheet::make_lattice<S>(settings.tubesheet);
+  if (!lattice) {
+    return Unexpected(lattice.error());
+  }
+  const auto& tip = settings.tool.position_mm;
+  for (const double coordinate : tip) {
+    if (!(coordinate > -1000.0 && coordinate < 1000.0)) {
+      return Unexpected(Error::kOutOfRange);
+    }
+  }
+  const auto& motion = settings.motion;
+  if (!(motion.max_speed_mm_s > 0.0 && motion.max_speed_mm_s <= 2000.0) ||
+      !(motion.max_acceleration_mm_s2 > 0.0 && motion.max_acceleration_mm_s2 <= 1.0e6)) {
+    return Unexpected(Error::kOutOfRange);
+  }
+  const Transform<frames::Camera, frames::Tool> T_camera_tool(
+      rotation_from_degrees(settings.tool.rotation_deg), {tip[0], tip[1], tip[2]});
+  model.camera = *camera;
+  model.lattice = *lattice;
+  model.virtual_plane = camera::make_virtual_plane<S>(T_camera_tool);
+  model.tip_mm = {Mm<S>(tip[0]), Mm<S>(tip[1]), Mm<S>(tip[2])};
+  model.bore_radius_mm = Mm<S>(settings.tubesheet.bore_mm / 2.0);
+  model.weld = settings.tubesheet.weld;
+  model.picture_width_px = settings.camera.width_px;
+  model.picture_height_px = settings.camera.height_px;
+  const auto& window = settings.start.window_px;
+  model.window_left_px = window[0];
+  model.window_top_px = window[1];
+  model.window_right_px = window[2];
+  model.window_bottom_px = window[3];
+  model.optimum_px = {Px<S>(settings.start.optimum_px[0]), Px<S>(settings.start.optimum_px[1])};
+  model.max_speed_mm_s = Mm<S>(motion.max_speed_mm_s);
+  model.max_acceleration_m_s2 = Mm<S>(motion.max_acceleration_mm_s2 / 1000.0);
+  model.aligned_within_mm = Mm<S>(settings.verification.aligned_within_mm);
+  model.initial_threshold = settings.edges.initial_threshold;
+  model.region_threshold = settings.edges.region_threshold;
+  return {};
+}
+
+ImagePoint make_image_point(const std::array<double, 2>& at_px) {
+  return {Fixed<16, 16>(at_px[0]).raw(), Fixed<16, 16>(at_px[1]).raw()};
+}
+
+StartClickList make_start_clicks(const StaticVector<StartPoint, kMaxStartPoints>& points) {
+  StartClickList clicks;
+  for (const StartPoint& point : points) {
+    const ImagePoint at = make_image_point(point.at_px);
+    static_cast<void>(clicks.try_push_back({point.address, at.u_q16, at.v_q16}));
+  }
+  return clicks;
+}
+
+#define TUBESIGHT_INSTANTIATE(S) \
+  template Result<void> make_tracking_model<S>(const SessionSettings&, TrackingModel<S>&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking
