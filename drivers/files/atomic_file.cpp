@@ -1,0 +1,147 @@
+#include "drivers/files/atomic_file.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tubesight::drivers {
+namespace {
+
+using core::Error;
+using core::Result;
+using core::Unexpected;
+
+constexpr std::size_t kBufferBytes = 65536;
+constexpr mode_t kMode = 0666;  // less the user's umask
+constexpr int kAttempts = 1000;
+
+/// Opens a new file beside `target`; open() honours the umask, which mkstemp() does not.
+int open_beside(const std::string& target, std::string& temporary) {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    temporary = target + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
+    const int descriptor =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+    if (descriptor >= 0 || errno != EEXIST) {
+      return descriptor;
+    }
+  }
+  return -1;
+}
+
+std::string resolve_links(const std::string& path) {
+  char* const resolved = ::realpath(path.c_str(), nullptr);
+  if (resolved == nullptr) {
+    return path;
+  }
+  std::string result = resolved;
+  std::free(resolved);
+  return result;
+}
+
+}  // namespace
+
+Result<void> AtomicFile::open(const std::string& path) {
+  discard();
+  path_ = path;
+  buffer_.clear();
+  buffer_.reserve(kBufferBytes);
+  message_.clear();
+  failed_ = false;
+  temporary_.clear();
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) {
+      errno = EISDIR;
+      return fail("cannot be written");
+    }
+    if (!S_ISREG(status.st_mode)) {
+      descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+      return descriptor_ < 0 ? fail("cannot be written") : Result<void>();
+    }
+  }
+  target_ = resolve_links(path);
+  descriptor_ = open_beside(target_, temporary_);
+  if (descriptor_ < 0) {
+    temporary_.clear();
+    return fail("cannot be written");
+  }
+  return {};
+}
+
+Result<void> AtomicFile::write(std::string_view text) {
+  return write(std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
+  if (!is_open()) {
+    return Unexpected(Error::kNotReady);
+  }
+  buffer_.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return buffer_.size() < kBufferBytes ? Result<void>() : flush();
+}
+
+Result<void> AtomicFile::commit() {
+  if (!is_open()) {
+    return Unexpected(Error::kNotReady);
+  }
+  if (const auto flushed = flush(); !flushed) {
+    discard();
+    return flushed;
+  }
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0) {
+    const auto failure = fail("cannot be written");
+    discard();
+    return failure;
+  }
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    const auto failure = fail("cannot be put in its place");
+    discard();
+    return failure;
+  }
+  temporary_.clear();
+  return {};
+}
+
+void AtomicFile::discard() {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+    descriptor_ = -1;
+  }
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+    temporary_.clear();
+  }
+}
+
+Result<void> AtomicFile::fail(const char* what) {
+  if (!failed_) {
+    message_ = path_ + ": " + what + ": " + std::strerror(errno);
+  }
+  failed_ = true;
+  return Unexpected(Error::kIo);
+}
+
+Result<void> AtomicFile::flush() {
+  if (failed_) {
+    return Unexpected(Error::kIo);
+  }
+  std::size_t written = 0;
+  while (written < buffer_.size()) {
+    const ssize_t count = ::write(descriptor_, buffer_.data() + written, buffer_.size() - written);
+    if (count >= 0) {
+      written += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      return fail("cannot be written");
+    }
+  }
+  buffer_.clear();
+  return {};
+}
+
+}  // namespace tubesight::drivers

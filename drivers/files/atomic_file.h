@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/base/result.h"
+
+namespace tubesight::drivers {
+
+/// Writes a file that appears under its name only when it is whole.
+///
+/// The bytes go to a file beside the target whose name ends in `.part`; commit() renames it, and
+/// destruction without commit() removes it, so that the target is the old file, the whole new one,
+/// or absent. What is no regular file (a pipe, a terminal, /dev/null) is written directly.
+class AtomicFile {
+ public:
+  AtomicFile() = default;
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile() { discard(); }
+
+  /// Begins to write `path`; what an earlier open() began is discarded. Errors: kIo.
+  [[nodiscard]] core::Result<void> open(const std::string& path);
+
+  /// Appends bytes; they are collected and written in large pieces. Errors: kIo (the disk is full,
+  /// say), kNotReady not open. After an error the file can only be discarded.
+  [[nodiscard]] core::Result<void> write(std::string_view text);
+  [[nodiscard]] core::Result<void> write(std::span<const std::byte> bytes);
+
+  /// Writes the rest and puts the file in its place. Errors: kIo, kNotReady; the target is then as
+  /// it was before open().
+  [[nodiscard]] core::Result<void> commit();
+
+  /// Gives up what was written; does nothing when not open.
+  void discard();
+
+  [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+
+  /// The last failure in one line, with the target's name.
+  [[nodiscard]] const std::string& message() const { return message_; }
+
+ private:
+  core::Result<void> fail(const char* what);
+  core::Result<void> flush();
+
+  std::string path_;       ///< as the caller gave it
+  std::string target_;     ///< where the rename goes: path_ with symbolic links resolved
+  std::string temporary_;  ///< empty when written directly
+  std::string buffer_;
+  std::string message_;
+  int descriptor_ = -1;
+  bool failed_ = false;
+};
+
+}  // namespace tubesight::drivers

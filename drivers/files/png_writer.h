@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/image_view.h"
+#include "core/base/result.h"
+
+namespace tubesight::drivers {
+
+/// Writes a picture as PNG that appears under its name only when whole; an existing one is
+/// replaced.
+///
+/// Quick rather than small compression. Errors: kIo, and `message` is one line with the path.
+[[nodiscard]] core::Result<void> write_png(const std::string& path, const core::ImageView& grey,
+                                           std::string& message);
+[[nodiscard]] core::Result<void> write_png(const std::string& path, const core::RgbImageView& rgb,
+                                           std::string& message);
+
+}  // namespace tubesight::drivers

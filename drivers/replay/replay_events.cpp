@@ -1,0 +1,211 @@
+#include "drivers/replay/replay_events.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "drivers/files/csv_reader.h"
+#include "drivers/files/decimal.h"
+#include "drivers/replay/companion.h"
+
+namespace tubesight::drivers {
+namespace {
+
+using core::Error;
+using core::Event;
+using core::EventKind;
+using core::Result;
+using core::Unexpected;
+
+constexpr std::size_t kMostMessages = 20;
+
+struct Kind {
+  std::string_view word;
+  EventKind kind;
+  const char* values;  ///< what the column `values` is expected to hold
+};
+
+constexpr std::array kKinds = {
+    Kind{"claim", EventKind::kClaim, "R,C (row and column)"},
+    Kind{"start", EventKind::kStart, "3 to 8 clicks R,C,U,V separated by ';'"},
+    Kind{"lamp", EventKind::kLampCommand, "a level from 0 to 1000"},
+    Kind{"pose", EventKind::kPoseRequest, "nothing"},
+    Kind{"pick", EventKind::kPick, "U,V (pixels)"},
+    Kind{"acknowledge", EventKind::kAcknowledge, "nothing"},
+};
+static_assert(core::kMaxStartPoints == 8);
+
+/// Cuts the text before the first `separator` off the front.
+std::string_view cut(std::string_view& rest, char separator) {
+  const std::size_t end = rest.find(separator);
+  const std::string_view part = rest.substr(0, end);
+  rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+  return part;
+}
+
+/// Cuts the text at each `separator` into exactly N parts.
+template <std::size_t N>
+bool split(std::string_view text, char separator, std::array<std::string_view, N>& parts) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if ((i + 1 < N) != (text.find(separator) != std::string_view::npos)) {
+      return false;
+    }
+    parts[i] = cut(text, separator);
+  }
+  return true;
+}
+
+/// A place that could be meant for a picture; whether it lies inside is the session's to say.
+bool parse_px(std::string_view text, double& px) {
+  constexpr double kFarthest_px = 65536.0;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() ||
+      !(std::abs(value) <= kFarthest_px)) {
+    return false;
+  }
+  px = value;
+  return true;
+}
+
+bool parse_start(std::string_view text, Event& event) {
+  constexpr std::int32_t kFewest = 3;
+  while (!text.empty()) {
+    std::array<std::string_view, 4> parts;
+    core::StartPoint point;
+    if (!split(cut(text, ';'), ',', parts) || !parse_whole(parts[0], point.address.row) ||
+        !parse_whole(parts[1], point.address.column) || !parse_px(parts[2], point.at_px[0]) ||
+        !parse_px(parts[3], point.at_px[1]) || !event.start.try_push_back(point)) {
+      return false;
+    }
+  }
+  return event.start.size() >= kFewest;
+}
+
+bool parse_values(std::string_view text, Event& event) {
+  std::array<std::string_view, 2> pair;
+  switch (event.kind) {
+    case EventKind::kClaim:
+      return split(text, ',', pair) && parse_whole(pair[0], event.claim.row) &&
+             parse_whole(pair[1], event.claim.column);
+    case EventKind::kStart: return parse_start(text, event);
+    case EventKind::kLampCommand:
+      return parse_whole(text, event.lamp_permille) && event.lamp_permille >= 0 &&
+             event.lamp_permille <= 1000;
+    case EventKind::kPick:
+      return split(text, ',', pair) && parse_px(pair[0], event.pick_px[0]) &&
+             parse_px(pair[1], event.pick_px[1]);
+    case EventKind::kPoseRequest:
+    case EventKind::kAcknowledge: return text.empty();
+  }
+  return false;
+}
+
+/// The column `values`: the last one, so that commas in it need no quotation marks as long as the
+/// header has no further columns.
+std::string values_of(const CsvReader& csv) {
+  const auto& cells = csv.cells();
+  constexpr std::size_t kColumns = 4;
+  std::string values = cells.size() < kColumns ? std::string() : cells[kColumns - 1];
+  if (csv.columns() == kColumns) {
+    for (std::size_t i = kColumns; i < cells.size(); ++i) {
+      values += ',' + cells[i];
+    }
+  }
+  return values;
+}
+
+bool parse_row(const CsvReader& csv, std::int64_t& field, Event& event, Messages& messages) {
+  const auto& cells = csv.cells();
+  constexpr std::size_t kFewestCells = 3;  // without `values`
+  if (cells.size() < kFewestCells) {
+    messages.push_back(csv.place() + std::to_string(cells.size()) + " cells, expected " +
+                       std::to_string(csv.columns()));
+    return false;
+  }
+  bool good = true;
+  const auto complain = [&](const char* column, std::string_view cell,
+                            const std::string& expected) {
+    messages.push_back(csv.place() + column + ": " + in_quotes(cell) + ", expected " + expected);
+    good = false;
+  };
+  if (!parse_whole(cells[0], field) || field < 0) {
+    complain("field", cells[0], "a whole number from 0");
+  }
+  std::int64_t time_ns = 0;
+  if (!cells[1].empty() && !parse_decimal(cells[1], 9, time_ns)) {
+    complain("time_s", cells[1], "seconds with at most 9 decimals, or nothing");
+  }
+  const Kind* kind = nullptr;
+  for (const Kind& candidate : kKinds) {
+    kind = candidate.word == cells[2] ? &candidate : kind;
+  }
+  if (kind == nullptr) {
+    complain("kind", cells[2], "claim, start, lamp, pose, pick or acknowledge");
+    return false;
+  }
+  event.kind = kind->kind;
+  const std::string values = values_of(csv);
+  if (!parse_values(values, event)) {
+    complain("values", values, std::string(kind->values) + " for " + std::string(kind->word));
+  }
+  return good;
+}
+
+}  // namespace
+
+Result<void> ReplayEvents::load_beside(std::string_view recording, Messages& messages) {
+  rows_.clear();
+  taken_ = 0;
+  const std::string path = companion_path(recording, ".events.csv");
+  std::string text;
+  const auto present = read_companion(path, text, messages);
+  if (!present) {
+    return Unexpected(present.error());
+  }
+  return *present ? parse(text, path, messages) : Result<void>();
+}
+
+Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
+                                 Messages& messages) {
+  rows_.clear();
+  taken_ = 0;
+  Messages found;
+  CsvReader csv(text, name);
+  std::int32_t in_field = 0;
+  if (csv.read_header({"field", "time_s", "kind", "values"}, found)) {
+    while (found.size() < kMostMessages && csv.next(found)) {
+      Row row;
+      if (!parse_row(csv, row.field, row.event, found)) {
+        continue;
+      }
+      if (!rows_.empty() && row.field < rows_.back().field) {
+        found.push_back(csv.place() + "field: " + std::to_string(row.field) +
+                        ", expected no less than in the row before (" +
+                        std::to_string(rows_.back().field) + ")");
+        continue;
+      }
+      in_field = !rows_.empty() && row.field == rows_.back().field ? in_field + 1 : 1;
+      if (in_field > core::kMaxEventsPerField) {
+        found.push_back(csv.place() + "field: more than " +
+                        std::to_string(core::kMaxEventsPerField) + " events before field " +
+                        std::to_string(row.field) + ", expected at most that many");
+        continue;
+      }
+      rows_.push_back(row);
+    }
+  }
+  messages.insert(messages.end(), found.begin(), found.end());
+  return found.empty() ? Result<void>() : Unexpected(Error::kInvalidArgument);
+}
+
+void ReplayEvents::take_before(std::int64_t field, core::EventList& events) {
+  events.clear();
+  // Were the list ever full, the rest would be handed before the next field.
+  while (taken_ < rows_.size() && rows_[taken_].field <= field &&
+         events.try_push_back(rows_[taken_].event)) {
+    ++taken_;
+  }
+}
+
+}  // namespace tubesight::drivers

@@ -1,0 +1,244 @@
+#include "drivers/replay/replay_frame_grabber.h"
+
+#include <utility>
+
+#include "core/base/assert.h"
+#include "drivers/replay/companion.h"
+#include "drivers/replay/field_time.h"
+
+namespace tubesight::drivers {
+namespace {
+
+using core::Error;
+using core::Result;
+using core::Scan;
+using core::Unexpected;
+
+constexpr const char* header_words(Y4mInterlacing interlacing) {
+  switch (interlacing) {
+    case Y4mInterlacing::kUnstated: return "no I";
+    case Y4mInterlacing::kProgressive: return "Ip (progressive)";
+    case Y4mInterlacing::kEvenFirst: return "It (even lines first)";
+    case Y4mInterlacing::kOddFirst: return "Ib (odd lines first)";
+  }
+  return "";
+}
+
+constexpr const char* scan_word(Scan scan) {
+  switch (scan) {
+    case Scan::kEvenFirst: return "even-first";
+    case Scan::kOddFirst: return "odd-first";
+    case Scan::kProgressive: return "progressive";
+  }
+  return "";
+}
+
+constexpr bool agree(Y4mInterlacing interlacing, Scan scan) {
+  switch (interlacing) {
+    case Y4mInterlacing::kUnstated: return true;
+    case Y4mInterlacing::kProgressive: return scan == Scan::kProgressive;
+    case Y4mInterlacing::kEvenFirst: return scan == Scan::kEvenFirst;
+    case Y4mInterlacing::kOddFirst: return scan == Scan::kOddFirst;
+  }
+  return false;
+}
+
+constexpr core::Parity parity_of(Scan scan, bool later) {
+  if (scan == Scan::kProgressive) {
+    return core::Parity::kProgressive;
+  }
+  return (scan == Scan::kOddFirst) != later ? core::Parity::kOdd : core::Parity::kEven;
+}
+
+std::string size_words(std::int32_t width_px, std::int32_t height_px) {
+  return std::to_string(width_px) + " x " + std::to_string(height_px);
+}
+
+}  // namespace
+
+ReplayFrameGrabber::ReplayFrameGrabber(const core::CameraSettings& camera, std::string recording)
+    : camera_(camera), recording_(std::move(recording)) {}
+
+ReplayFrameGrabber::ReplayFrameGrabber(const core::CameraSettings& camera,
+                                       std::unique_ptr<ByteSource> source, std::string name,
+                                       std::string meta_text)
+    : camera_(camera),
+      recording_(std::move(name)),
+      given_source_(std::move(source)),
+      given_meta_(std::move(meta_text)),
+      from_memory_(true) {}
+
+Result<void> ReplayFrameGrabber::start() {
+  if (started_) {
+    return Unexpected(Error::kNotReady);
+  }
+  messages_.clear();
+  failed_ = false;
+  frame_ready_ = false;
+  later_field_ = false;
+  field_number_ = -1;
+  sequence_ = 0;
+  lamp_permille_.reset();
+  TUBESIGHT_TRY(open());
+  TUBESIGHT_TRY(check_header());
+  TUBESIGHT_TRY(check_rate_or_meta());
+  pixels_.resize(static_cast<std::size_t>(reader_.header().luma_bytes()));
+  if (const auto first = reader_.read_frame(pixels_); !first) {
+    return first.error() == Error::kEndOfData
+               ? fail(Error::kInvalidArgument,
+                      recording_ + ": holds no frame, expected at least one")
+               : fail(first.error(), reader_.message());
+  }
+  frame_ready_ = true;
+  started_ = true;
+  return {};
+}
+
+void ReplayFrameGrabber::stop() {
+  TUBESIGHT_ASSERT(!lent_);
+  started_ = false;
+}
+
+Result<void> ReplayFrameGrabber::open() {
+  std::string meta_text;
+  if (from_memory_) {
+    if (given_source_ == nullptr) {
+      return fail(Error::kIo, recording_ + ": can be read only once");
+    }
+    meta_name_ = recording_ + ".meta.csv";
+    meta_text = given_meta_;
+    has_meta_ = !meta_text.empty();
+  } else {
+    meta_name_ = companion_path(recording_, ".meta.csv");
+    const auto present = read_companion(meta_name_, meta_text, messages_);
+    if (!present) {
+      return Unexpected(present.error());
+    }
+    has_meta_ = *present;
+  }
+  const auto opened =
+      from_memory_ ? reader_.open(std::move(given_source_), recording_) : reader_.open(recording_);
+  if (!opened) {
+    return fail(opened.error(), reader_.message());
+  }
+  return has_meta_ ? meta_.parse(meta_text, meta_name_, messages_) : Result<void>();
+}
+
+Result<void> ReplayFrameGrabber::check_header() {
+  const Y4mHeader& header = reader_.header();
+  if (header.width_px != camera_.width_px || header.height_px != camera_.height_px) {
+    return fail(Error::kInvalidArgument,
+                recording_ + ": " + size_words(header.width_px, header.height_px) +
+                    " pixels, expected " + size_words(camera_.width_px, camera_.height_px) +
+                    " as [camera] of the settings says");
+  }
+  if (!agree(header.interlacing, camera_.scan)) {
+    return fail(Error::kInvalidArgument, recording_ + ": header says " +
+                                             header_words(header.interlacing) +
+                                             ", expected scan = \"" + scan_word(camera_.scan) +
+                                             "\" as [camera] of the settings says");
+  }
+  if (interlaced() && header.height_px < 2) {
+    return fail(Error::kInvalidArgument,
+                recording_ + ": 1 line, expected at least 2 in an interlaced picture");
+  }
+  return {};
+}
+
+Result<void> ReplayFrameGrabber::check_rate_or_meta() {
+  if (!has_meta_ && reader_.header().rate_numerator == 0) {
+    return fail(Error::kInvalidArgument,
+                recording_ +
+                    ": header says no frame rate, expected F<number>:<number> there or "
+                    "times in " +
+                    meta_name_);
+  }
+  return {};
+}
+
+Result<void> ReplayFrameGrabber::fail(Error error, std::string message) {
+  messages_.push_back(std::move(message));
+  failed_ = true;
+  failure_ = error;
+  return Unexpected(error);
+}
+
+Result<void> ReplayFrameGrabber::next_frame() {
+  const auto outcome = reader_.read_frame(pixels_);
+  if (outcome) {
+    frame_ready_ = true;
+    return {};
+  }
+  if (outcome.error() == Error::kEndOfData) {
+    TUBESIGHT_TRY(check_meta_used_up());
+    failed_ = true;
+    failure_ = Error::kEndOfData;
+    return Unexpected(failure_);
+  }
+  return fail(outcome.error(), reader_.message());
+}
+
+Result<void> ReplayFrameGrabber::check_meta_used_up() {
+  if (!has_meta_ || meta_.rows().empty() || meta_.rows().back().field <= field_number_) {
+    return {};
+  }
+  return fail(Error::kInvalidArgument, meta_name_ + ":" + std::to_string(meta_.rows().back().line) +
+                                           ": field: " + std::to_string(meta_.rows().back().field) +
+                                           ", expected at most " + std::to_string(field_number_) +
+                                           ", the last field of " + recording_);
+}
+
+Result<void> ReplayFrameGrabber::describe(std::int64_t number, core::Field& field) {
+  field.sequence = sequence_;
+  if (!has_meta_) {
+    const Y4mHeader& header = reader_.header();
+    field.mid_exposure = nominal_field_time(number, header.rate_numerator, header.rate_denominator);
+    return {};
+  }
+  const FieldMeta* const row = meta_.find(number);
+  if (row == nullptr) {
+    return fail(Error::kInvalidArgument, meta_name_ + ": no row for field " +
+                                             std::to_string(number) +
+                                             ", expected one for each field of " + recording_);
+  }
+  field.sequence = row->sequence;
+  field.mid_exposure = row->time;
+  field.status = row->status;
+  lamp_permille_ = row->lamp_permille;
+  return {};
+}
+
+Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) {
+  if (!started_ || lent_) {
+    return Unexpected(Error::kNotReady);
+  }
+  if (failed_) {
+    return Unexpected(failure_);
+  }
+  if (!frame_ready_) {
+    TUBESIGHT_TRY(next_frame());
+  }
+  const std::int64_t number = 2 * (reader_.frames_read() - 1) + (later_field_ ? 1 : 0);
+  core::Field field;
+  field.parity = parity_of(camera_.scan, later_field_);
+  field.pixels = core::field_of(frame(), field.parity);
+  TUBESIGHT_TRY(describe(number, field));
+  field_number_ = number;
+  ++sequence_;
+  frame_ready_ = interlaced() && !later_field_;
+  later_field_ = frame_ready_;
+  lent_ = true;
+  return hal::FieldLease(*this, 0, field);
+}
+
+void ReplayFrameGrabber::give_back(std::int32_t buffer) {
+  TUBESIGHT_ASSERT(lent_ && buffer == 0);
+  lent_ = false;
+}
+
+core::ImageView ReplayFrameGrabber::frame() const {
+  const Y4mHeader& header = reader_.header();
+  return {pixels_.data(), header.width_px, header.height_px, header.width_px};
+}
+
+}  // namespace tubesight::drivers

@@ -1,0 +1,267 @@
+#include "drivers/settings/session_checks.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace tubesight::drivers {
+namespace {
+
+using core::TubeAddress;
+using Vector = std::array<double, 2>;
+
+std::string number_text(double value) {
+  // Beyond these a plain decimal would be a row of zeros.
+  constexpr double kSmallest = 1e-6;
+  constexpr double kLargest = 1e9;
+  const double magnitude = std::abs(value);
+  const bool plain = value == 0.0 || (magnitude >= kSmallest && magnitude < kLargest);
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, value,
+                                 plain ? std::chars_format::fixed : std::chars_format::general)
+                       .ptr;
+  return {text, end};
+}
+
+/// For numbers that were calculated: four significant digits.
+std::string rounded_text(double value) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr;
+  return {text, end};
+}
+
+Vector plus(const Vector& a, const Vector& b, double times) {
+  return {a[0] + times * b[0], a[1] + times * b[1]};
+}
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+double cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0]; }
+double length(const Vector& a) { return std::hypot(a[0], a[1]); }
+
+/// Twice the signed area of a triangle over the square of its longest side: 0.87 when equilateral,
+/// 0 when the corners lie in one line.
+double fatness(const Vector& a, const Vector& b, const Vector& c) {
+  const Vector ab = plus(b, a, -1.0);
+  const Vector ac = plus(c, a, -1.0);
+  const Vector bc = plus(c, b, -1.0);
+  const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(bc, bc)});
+  return longest > 0.0 ? cross(ab, ac) / longest : 0.0;
+}
+
+/// Below it the corners count as in one line; the source's three tubes give 0.5.
+constexpr double kThinnest = 0.05;
+
+Vector place_mm(const core::TubesheetSettings& tubesheet, TubeAddress address) {
+  return plus(plus(tubesheet.origin_mm, tubesheet.row_step_mm, address.row),
+              tubesheet.column_step_mm, address.column);
+}
+
+bool exists_by_parity(core::AddressParity parity, TubeAddress address) {
+  const bool odd = ((address.row ^ address.column) & 1) != 0;
+  return parity == core::AddressParity::kAll || odd == (parity == core::AddressParity::kOddSum);
+}
+
+}  // namespace
+
+std::string address_text(TubeAddress address) {
+  return "tube (" + std::to_string(address.row) + ", " + std::to_string(address.column) + ")";
+}
+
+std::string point_text(const std::array<double, 2>& point_px) {
+  return "(" + number_text(point_px[0]) + ", " + number_text(point_px[1]) + ")";
+}
+
+std::string ranges_text(const core::TubesheetSettings& tubesheet) {
+  return "a row from " + std::to_string(tubesheet.rows[0]) + " to " +
+         std::to_string(tubesheet.rows[1]) + " and a column from " +
+         std::to_string(tubesheet.columns[0]) + " to " + std::to_string(tubesheet.columns[1]);
+}
+
+bool in_picture(const core::CameraSettings& camera, const std::array<double, 2>& point_px) {
+  return point_px[0] >= 0.0 && point_px[0] <= camera.width_px - 1 && point_px[1] >= 0.0 &&
+         point_px[1] <= camera.height_px - 1;
+}
+
+bool in_ranges(const core::TubesheetSettings& tubesheet, TubeAddress address) {
+  return address.row >= tubesheet.rows[0] && address.row <= tubesheet.rows[1] &&
+         address.column >= tubesheet.columns[0] && address.column <= tubesheet.columns[1];
+}
+
+std::string why_picture_folds(const core::CameraSettings& camera) {
+  const double pixel_width_mm =
+      camera.cell_width_mm / camera.horizontal_scale * camera.sensor_columns / camera.frame_columns;
+  const double x_mm =
+      pixel_width_mm * std::max(camera.center_px[0], camera.width_px - 1 - camera.center_px[0]);
+  const double y_mm = camera.cell_height_mm *
+                      std::max(camera.center_px[1], camera.height_px - 1 - camera.center_px[1]);
+  const double corner = x_mm * x_mm + y_mm * y_mm;
+  const double k = camera.distortion_per_mm2;
+  const double k2 = camera.distortion2_per_mm4;
+  const auto growth = [&](double square) { return 1.0 + square * (3.0 * k + 5.0 * k2 * square); };
+  double least = growth(corner);
+  if (k2 != 0.0) {
+    const double turning = -0.3 * k / k2;
+    if (turning > 0.0 && turning < corner) {
+      least = std::min(least, growth(turning));
+    }
+  }
+  if (least > 0.0) {
+    return {};
+  }
+  return number_text(k) +
+         " folds the picture over, expected 1 + 3 k r^2 + 5 k2 r^4 above 0 up to "
+         "the farthest corner, r = " +
+         rounded_text(std::sqrt(corner)) + " mm";
+}
+
+std::string why_no_lattice(const core::TubesheetSettings& tubesheet) {
+  const Vector& row = tubesheet.row_step_mm;
+  const Vector& column = tubesheet.column_step_mm;
+  constexpr double kShortestStep_mm = 1.0;
+  constexpr double kLeastSine = 0.1;
+  if (length(row) < kShortestStep_mm || length(column) < kShortestStep_mm) {
+    return "a step below 1 mm, expected row_step_mm and column_step_mm from tube to tube";
+  }
+  if (std::abs(cross(row, column)) < kLeastSine * length(row) * length(column)) {
+    return "the steps lie in one line, expected row_step_mm and column_step_mm at least 6 degrees "
+           "apart";
+  }
+  return {};
+}
+
+double shortest_step_mm(const core::TubesheetSettings& tubesheet) {
+  Vector a = tubesheet.row_step_mm;
+  Vector b = tubesheet.column_step_mm;
+  if (tubesheet.addresses != core::AddressParity::kAll) {
+    // Neighbours differ by an even sum: these two steps span all such.
+    a = plus(tubesheet.row_step_mm, tubesheet.column_step_mm, 1.0);
+    b = plus(tubesheet.row_step_mm, tubesheet.column_step_mm, -1.0);
+  }
+  // Gauss' reduction: the longer loses multiples of the shorter until that stops paying. Steps from
+  // 1 to 1000 mm need a handful of rounds.
+  constexpr int kMostRounds = 64;
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (dot(a, a) > dot(b, b)) {
+      std::swap(a, b);
+    }
+    const double times = std::round(dot(a, b) / dot(a, a));
+    if (times == 0.0) {
+      break;
+    }
+    b = plus(b, a, -times);
+  }
+  return length(a);
+}
+
+std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet) {
+  const double step_mm = shortest_step_mm(tubesheet);
+  if (tubesheet.bore_mm < step_mm) {
+    return {};
+  }
+  return number_text(tubesheet.bore_mm) + ", expected less than the " + rounded_text(step_mm) +
+         " mm between neighbouring tubes";
+}
+
+std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet) {
+  for (const std::int32_t row : tubesheet.rows) {
+    for (const std::int32_t column : tubesheet.columns) {
+      const Vector place = place_mm(tubesheet, {row, column});
+      if (std::max(std::abs(place[0]), std::abs(place[1])) > kLargestSheet_mm) {
+        return address_text({row, column}) + " would stand at (" + rounded_text(place[0]) + ", " +
+               rounded_text(place[1]) + ") mm, expected within 30000 mm of the origin";
+      }
+    }
+  }
+  return {};
+}
+
+std::optional<TubeAddress> listed_twice(const core::TubesheetSettings& tubesheet) {
+  std::vector<TubeAddress> missing(tubesheet.missing.begin(), tubesheet.missing.end());
+  std::sort(missing.begin(), missing.end());
+  for (const TubeAddress address : tubesheet.plugged) {
+    if (std::binary_search(missing.begin(), missing.end(), address)) {
+      return address;
+    }
+  }
+  return {};
+}
+
+std::string why_no_tube(const core::TubesheetSettings& tubesheet, TubeAddress address) {
+  if (!in_ranges(tubesheet, address)) {
+    return address_text(address) + " is outside the tubesheet, expected " + ranges_text(tubesheet);
+  }
+  if (!exists_by_parity(tubesheet.addresses, address)) {
+    return address_text(address) + " does not exist, expected an " +
+           (tubesheet.addresses == core::AddressParity::kEvenSum ? "even" : "odd") +
+           " sum of row and column";
+  }
+  const auto& missing = tubesheet.missing;
+  if (std::find(missing.begin(), missing.end(), address) != missing.end()) {
+    return address_text(address) + " is listed as missing, expected a tube that stands";
+  }
+  return {};
+}
+
+std::string why_clicks_contradict(const core::StartSettings& start,
+                                  const core::TubesheetSettings* tubesheet) {
+  double fattest = 0.0;
+  double fattest_on_sheet = 0.0;
+  double sheet_at_fattest = 0.0;
+  const auto& tubes = start.tubes;
+  for (std::int32_t i = 0; i < tubes.size(); ++i) {
+    for (std::int32_t j = i + 1; j < tubes.size(); ++j) {
+      if (tubes[i].address == tubes[j].address) {
+        return address_text(tubes[i].address) + " is named twice, expected different tubes";
+      }
+      for (std::int32_t k = j + 1; k < tubes.size(); ++k) {
+        const double seen = fatness(tubes[i].at_px, tubes[j].at_px, tubes[k].at_px);
+        double meant = 0.0;
+        if (tubesheet != nullptr) {
+          meant = fatness(place_mm(*tubesheet, tubes[i].address),
+                          place_mm(*tubesheet, tubes[j].address),
+                          place_mm(*tubesheet, tubes[k].address));
+        }
+        fattest_on_sheet = std::max(fattest_on_sheet, std::abs(meant));
+        if (std::abs(seen) > std::abs(fattest)) {
+          fattest = seen;
+          sheet_at_fattest = meant;
+        }
+      }
+    }
+  }
+  if (std::abs(fattest) < kThinnest) {
+    return "the clicks lie in one line in the picture, expected a triangle";
+  }
+  if (tubesheet == nullptr) {
+    return {};
+  }
+  if (fattest_on_sheet < kThinnest) {
+    return "the tubes lie in one line on the sheet, expected a triangle";
+  }
+  // Camera and sheet both have z pointing away from the tool, so that x, y turn the same way.
+  if (std::abs(sheet_at_fattest) >= kThinnest && (fattest > 0.0) != (sheet_at_fattest > 0.0)) {
+    return "the clicks go round the other way than their addresses, expected the order of "
+           "row_step_mm and column_step_mm (rows and columns swapped, or a step's sign?)";
+  }
+  return {};
+}
+
+std::string why_no_window(const std::array<std::int32_t, 4>& window_px,
+                          const core::CameraSettings* camera) {
+  constexpr std::int32_t kLeastSide_px = 64;
+  const auto& [left, top, right, bottom] = window_px;
+  if (right - left + 1 < kLeastSide_px || bottom - top + 1 < kLeastSide_px) {
+    return std::to_string(right - left + 1) + " x " + std::to_string(bottom - top + 1) +
+           " pixels, expected left, top, right, bottom at least 64 apart";
+  }
+  if (camera != nullptr && (right >= camera->width_px || bottom >= camera->height_px)) {
+    return "reaches to (" + std::to_string(right) + ", " + std::to_string(bottom) +
+           "), expected at most (" + std::to_string(camera->width_px - 1) + ", " +
+           std::to_string(camera->height_px - 1) + ")";
+  }
+  return {};
+}
+
+}  // namespace tubesight::drivers

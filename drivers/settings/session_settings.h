@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/settings.h"
+#include "drivers/files/messages.h"
+#include "drivers/settings/text_files.h"
+
+namespace tubesight::drivers {
+
+/// Which tables of a session a command cannot do without; others are read where they stand.
+struct NeededTables {
+  bool camera = false;
+  bool tool = false;
+  bool tubesheet = false;
+  bool start = false;
+};
+
+/// `replay`: all four.
+inline constexpr NeededTables kReplayNeeds{true, true, true, true};
+/// `pose`: the tool only for the tool's cells, the start may come from the command line.
+inline constexpr NeededTables kPoseNeeds{true, false, true, false};
+/// `calibrate tool`: the tool is what it finds.
+inline constexpr NeededTables kCalibrateToolNeeds{true, false, true, false};
+
+/// A session file as read. About 260 KB: static or heap, never on a stack.
+struct SessionFile {
+  core::SessionSettings settings;
+  bool has_tool = false;
+  bool has_start = false;  ///< without it the window is the whole picture
+  std::string camera_id;   ///< `id` of [camera_quality], empty when there is none
+  std::string tool_id;     ///< `id` of [tool_quality]
+};
+
+/// Reads a session's settings from `path` and the files that it includes.
+///
+/// Everything in `session` is replaced; after an error it is not to be used. Errors:
+/// kInvalidArgument, with one message for each mistake in all the files ("file:line: key: what,
+/// expected ..."), in the order of files and lines.
+[[nodiscard]] core::Result<void> load_session_settings(const std::string& path, NeededTables needed,
+                                                       SessionFile& session, Messages& messages);
+
+/// The same with files from elsewhere.
+[[nodiscard]] core::Result<void> load_session_settings(TextFiles& files, const std::string& path,
+                                                       NeededTables needed, SessionFile& session,
+                                                       Messages& messages);
+
+}  // namespace tubesight::drivers

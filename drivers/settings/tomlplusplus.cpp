@@ -1,0 +1,4 @@
+// Compiles toml++ itself.
+#define TOML_IMPLEMENTATION
+
+#include "drivers/settings/tomlplusplus.h"

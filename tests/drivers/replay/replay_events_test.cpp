@@ -1,0 +1,135 @@
+#include "drivers/replay/replay_events.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace tubesight::drivers {
+namespace {
+
+using core::EventKind;
+
+const std::string kHeader = "field,time_s,kind,values\n";
+
+TEST(ReplayEvents, ReadsEachKind) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+
+  ASSERT_TRUE(events.parse(kHeader + "0,0.0,start,\"40,60,313,196;41,60,321,251;40,61,387.5,186\"\n"
+                                     "0,,claim,\"-4,60\"\n"
+                                     "2,0.03,lamp,250\n2,0.03,pose,\n2,0.03,pick,\"320.25,190\"\n"
+                                     "2,0.03,acknowledge\n",
+                           "a.events.csv", messages));
+
+  events.take_before(0, list);
+  ASSERT_EQ(list.size(), 2);
+  EXPECT_EQ(list[0].kind, EventKind::kStart);
+  ASSERT_EQ(list[0].start.size(), 3);
+  EXPECT_EQ(list[0].start[2].address, (core::TubeAddress{40, 61}));
+  EXPECT_EQ(list[0].start[2].at_px[0], 387.5);
+  EXPECT_EQ(list[0].start[2].at_px[1], 186.0);
+  EXPECT_EQ(list[1].kind, EventKind::kClaim);
+  EXPECT_EQ(list[1].claim, (core::TubeAddress{-4, 60}));
+  events.take_before(1, list);
+  EXPECT_TRUE(list.empty());
+  EXPECT_EQ(events.left(), 4u);
+  events.take_before(2, list);
+  ASSERT_EQ(list.size(), 4);
+  EXPECT_EQ(list[0].kind, EventKind::kLampCommand);
+  EXPECT_EQ(list[0].lamp_permille, 250);
+  EXPECT_EQ(list[1].kind, EventKind::kPoseRequest);
+  EXPECT_EQ(list[2].kind, EventKind::kPick);
+  EXPECT_EQ(list[2].pick_px[0], 320.25);
+  EXPECT_EQ(list[3].kind, EventKind::kAcknowledge);
+  EXPECT_EQ(events.left(), 0u);
+}
+
+TEST(ReplayEvents, TakesUnquotedCommasInTheLastColumn) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+
+  ASSERT_TRUE(events.parse(kHeader + "0,0,claim,40,60\n", "a.events.csv", messages));
+  events.take_before(0, list);
+  ASSERT_EQ(list.size(), 1);
+  EXPECT_EQ(list[0].claim, (core::TubeAddress{40, 60}));
+
+  // With a further column only quotation marks keep them apart.
+  EXPECT_FALSE(events.parse("field,time_s,kind,values,who\n0,0,claim,40,60\n", "a", messages));
+}
+
+TEST(ReplayEvents, HandsRowsBetweenFieldsToTheNext) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+  ASSERT_TRUE(events.parse(kHeader + "1,0,pose,\n", "a", messages));
+
+  events.take_before(0, list);
+  EXPECT_TRUE(list.empty());
+  events.take_before(2, list);  // progressive: even numbers only
+  EXPECT_EQ(list.size(), 1);
+}
+
+TEST(ReplayEvents, TellsEachWrongRow) {
+  ReplayEvents events;
+  Messages messages;
+
+  const auto outcome = events.parse(kHeader +
+                                        "x,y,jump,\n"
+                                        "0,0,claim,4\n0,0,claim,\"4,5,6\"\n"
+                                        "0,0,start,\"1,2,3,4;1,3,5,6\"\n"
+                                        "0,0,lamp,1001\n0,0,pick,\"nan,1\"\n0,0,pose,1\n0\n"
+                                        "7,0,pose,\n6,0,pose,\n",
+                                    "a.events.csv", messages);
+
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error(), core::Error::kInvalidArgument);
+  EXPECT_EQ(
+      messages,
+      (Messages{
+          "a.events.csv:2: field: 'x', expected a whole number from 0",
+          "a.events.csv:2: time_s: 'y', expected seconds with at most 9 decimals, or nothing",
+          "a.events.csv:2: kind: 'jump', expected claim, start, lamp, pose, pick or acknowledge",
+          "a.events.csv:3: values: '4', expected R,C (row and column) for claim",
+          "a.events.csv:4: values: '4,5,6', expected R,C (row and column) for claim",
+          "a.events.csv:5: values: '1,2,3,4;1,3,5,6', expected 3 to 8 clicks R,C,U,V separated by "
+          "';' for start",
+          "a.events.csv:6: values: '1001', expected a level from 0 to 1000 for lamp",
+          "a.events.csv:7: values: 'nan,1', expected U,V (pixels) for pick",
+          "a.events.csv:8: values: '1', expected nothing for pose",
+          "a.events.csv:9: 1 cells, expected 4",
+          "a.events.csv:11: field: 6, expected no less than in the row before (7)"}));
+}
+
+TEST(ReplayEvents, RefusesMoreThanAStepTakes) {
+  ReplayEvents events;
+  Messages messages;
+  std::string text = kHeader;
+  for (int i = 0; i < 17; ++i) {
+    text += "3,0,pose,\n";
+  }
+
+  EXPECT_FALSE(events.parse(text, "a", messages));
+  EXPECT_EQ(messages, Messages{"a:18: field: more than 16 events before field 3, expected at most "
+                               "that many"});
+}
+
+TEST(ReplayEvents, ReadsTheFileBesideARecording) {
+  const support::TemporaryFolder folder;
+  ReplayEvents events;
+  Messages messages;
+
+  EXPECT_TRUE(events.load_beside(folder.path("none.y4m"), messages));
+  EXPECT_EQ(events.size(), 0u);
+  folder.write("a.events.csv", kHeader + "0,0,pose,\n");
+  EXPECT_TRUE(events.load_beside(folder.path("a.y4m.xz"), messages));
+  EXPECT_EQ(events.size(), 1u);
+  folder.write("b.events.csv", "kind\n");
+  EXPECT_FALSE(events.load_beside(folder.path("b.y4m"), messages));
+  EXPECT_EQ(messages, Messages{folder.path("b.events.csv") +
+                               ":1: wrong header, expected field,time_s,kind,values"});
+}
+
+}  // namespace
+}  // namespace tubesight::drivers

@@ -1,0 +1,64 @@
+#include "drivers/replay/replay_meta.h"
+
+#include <gtest/gtest.h>
+
+namespace tubesight::drivers {
+namespace {
+
+const std::string kHeader = "field,sequence,time_s,status,lamp_permille\n";
+
+TEST(ReplayMeta, ReadsRows) {
+  ReplayMeta meta;
+  Messages messages;
+
+  ASSERT_TRUE(meta.parse(kHeader + "0,7,0.000000,good,500\n1,9,0.050001,damaged,\n3,10,1,ok,0\n",
+                         "a.meta.csv", messages));
+
+  ASSERT_EQ(meta.rows().size(), 3u);
+  EXPECT_EQ(meta.rows()[0].sequence, 7);
+  EXPECT_EQ(meta.rows()[0].lamp_permille, 500);
+  EXPECT_EQ(meta.rows()[1].time.count(), 50001000);
+  EXPECT_EQ(meta.rows()[1].status, core::FieldStatus::kDamaged);
+  EXPECT_FALSE(meta.rows()[1].lamp_permille.has_value());
+  EXPECT_EQ(meta.rows()[2].status, core::FieldStatus::kGood);
+  EXPECT_EQ(meta.rows()[2].line, 4);
+  EXPECT_EQ(meta.find(2), nullptr);
+  ASSERT_NE(meta.find(3), nullptr);
+  EXPECT_EQ(meta.find(3)->sequence, 10);
+}
+
+TEST(ReplayMeta, TellsEachWrongCell) {
+  ReplayMeta meta;
+  Messages messages;
+
+  const auto outcome = meta.parse(
+      kHeader + "-1,x,1e3,lost,1001\n0,1,2\n5,1,0,good,1\n5,2,1,good,1\n", "a.meta.csv", messages);
+
+  ASSERT_FALSE(outcome);
+  EXPECT_EQ(outcome.error(), core::Error::kInvalidArgument);
+  EXPECT_EQ(
+      messages,
+      (Messages{"a.meta.csv:2: field: '-1', expected a whole number from 0",
+                "a.meta.csv:2: sequence: 'x', expected a whole number",
+                "a.meta.csv:2: time_s: '1e3', expected seconds with at most 9 decimals",
+                "a.meta.csv:2: status: 'lost', expected good or damaged",
+                "a.meta.csv:2: lamp_permille: '1001', expected a whole number from 0 to 1000, or "
+                "nothing",
+                "a.meta.csv:3: 3 cells, expected 5",
+                "a.meta.csv:5: field: 5, expected more than in the row before (5)"}));
+}
+
+TEST(ReplayMeta, StopsAfterTwentyMessages) {
+  ReplayMeta meta;
+  Messages messages;
+  std::string text = kHeader;
+  for (int i = 0; i < 100; ++i) {
+    text += "bad\n";
+  }
+
+  EXPECT_FALSE(meta.parse(text, "a.meta.csv", messages));
+  EXPECT_EQ(messages.size(), 20u);
+}
+
+}  // namespace
+}  // namespace tubesight::drivers

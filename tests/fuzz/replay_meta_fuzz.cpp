@@ -1,0 +1,35 @@
+// Meta files: whatever the text, either rows in the order of their fields, or messages.
+#include "drivers/replay/replay_meta.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+namespace {
+
+void require(bool holds) {
+  if (!holds) {
+    std::abort();
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tubesight;
+  drivers::ReplayMeta meta;
+  drivers::Messages messages;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const bool good = meta.parse(text, "fuzz.meta.csv", messages).has_value();
+  require(good == messages.empty());
+  for (const std::string& message : messages) {
+    require(message.find('\n') == std::string::npos && message.starts_with("fuzz.meta.csv:"));
+  }
+  std::int64_t before = -1;
+  for (const drivers::FieldMeta& row : meta.rows()) {
+    require(row.field > before && meta.find(row.field) == &row);
+    require(row.lamp_permille.value_or(0) >= 0 && row.lamp_permille.value_or(0) <= 1000);
+    before = row.field;
+  }
+  return 0;
+}

@@ -1,0 +1,80 @@
+// Settings: the text is cut at lines "#---" into session.toml, 1.toml, 2.toml ..., so that includes
+// are reached too. Whatever it holds, either settings within their limits, or messages.
+#include "drivers/settings/session_settings.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using namespace tubesight;
+
+void require(bool holds) {
+  if (!holds) {
+    std::abort();
+  }
+}
+
+class CutFiles final : public drivers::TextFiles {
+ public:
+  explicit CutFiles(std::string_view text) {
+    constexpr std::string_view kCut = "#---\n";
+    while (true) {
+      const std::size_t end = text.find(kCut);
+      parts_.push_back(text.substr(0, end));
+      if (end == std::string_view::npos) {
+        break;
+      }
+      text.remove_prefix(end + kCut.size());
+    }
+  }
+
+  core::Result<void> read(const std::string& path, std::string& text,
+                          std::string& message) override {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (path == (i == 0 ? "session.toml" : std::to_string(i) + ".toml")) {
+        text = parts_[i];
+        return {};
+      }
+    }
+    message = "No such file or directory";
+    return core::Unexpected(core::Error::kIo);
+  }
+
+ private:
+  std::vector<std::string_view> parts_;
+};
+
+void check(const core::SessionSettings& settings) {
+  const auto& window = settings.start.window_px;
+  require(window[0] >= 0 && window[0] < window[2] && window[2] < settings.camera.width_px);
+  require(window[1] >= 0 && window[1] < window[3] && window[3] < settings.camera.height_px);
+  require(settings.start.tubes.size() >= 3);
+  require(settings.camera.focal_length_mm > 0.0 && settings.tubesheet.bore_mm > 0.0);
+  require(std::isfinite(settings.camera.distortion_per_mm2));
+  require(settings.tubesheet.rows[0] <= settings.tubesheet.rows[1]);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const auto session = std::make_unique<drivers::SessionFile>();
+  drivers::Messages messages;
+  CutFiles files({reinterpret_cast<const char*>(data), size});
+  const bool good = drivers::load_session_settings(files, "session.toml", drivers::kReplayNeeds,
+                                                   *session, messages)
+                        .has_value();
+  require(good == messages.empty());
+  for (const std::string& message : messages) {
+    require(message.find('\n') == std::string::npos);
+  }
+  if (good) {
+    check(session->settings);
+  }
+  return 0;
+}
