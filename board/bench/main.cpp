@@ -1,0 +1,22 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include "board/bench/command_line.h"
+
+int main(int argc, char** argv) {
+  using tubesight::board::ExitStatus;
+  // A reader that goes away is told as a failed write, not by the end of the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  ExitStatus status = ExitStatus::kJobFailed;
+  try {
+    status = tubesight::board::run_command_line(argc, argv);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "tubesight: stopped: %s\n", problem.what());
+  }
+  if (std::fflush(stdout) != 0 && status == ExitStatus::kDone) {
+    std::perror("standard output: cannot be written");
+    status = ExitStatus::kJobFailed;
+  }
+  return static_cast<int>(status);
+}
