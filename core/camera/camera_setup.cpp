@@ -61,7 +61,7 @@ Result<CameraModel<S>> make_camera_model(const CameraSettings& settings) {
   }
   const double pixels = std::max(scale_u, scale_v);
   // A tenth of the stated error is left to the method, the rest to the arithmetic's rounding.
-  const double tolerance_px = std::same_as<S, double> ? 1e-10 : 1e-4;
+  const double tolerance_px = std::same_as<S, double> ? 1e-10 : 2e-6;
   const Result<RadialInverse> inverse = fit_radial_inverse(
       {k, k2}, farthest_corner(settings, scale_u, scale_v), pixels, tolerance_px / pixels);
   if (!inverse) {

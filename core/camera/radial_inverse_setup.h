@@ -16,7 +16,7 @@ struct RadialDistortion {
 /// Coefficients of the start polynomial: degree 8 leaves nothing to do for Newton's method in fixed
 /// point and one step in double, for the
 /// source's camera.
-inline constexpr std::int32_t kRadialCoefficients = 9;
+inline constexpr std::int32_t kRadialCoefficients = 7;
 
 /// How the distortion is undone: m = r / R as a polynomial over the picture, then Newton's method.
 struct RadialInverse {

@@ -98,8 +98,9 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
   MeasurementBounds bounds;
   bounds.thin_rim = model.weld == Weld::kFillet;
   bounds.taps = bounds.thin_rim ? kFilletTaps : edges::kHorizontalTaps;
-  for (std::int32_t i = look.first; i < look.end; ++i) {
-    const Candidate<S>& candidate = candidates[i];
+  count.next = look.first;
+  while (count.next < look.end && record.measured.size() < look.enough) {
+    const Candidate<S>& candidate = candidates[count.next++];
     if (candidate.state != TubeState::kOpen) {
       continue;
     }

@@ -19,12 +19,14 @@ struct FindingCount {
   std::int32_t measured = 0;
   std::int32_t bright = 0;  ///< no dark inside where one should be
   std::int32_t disagreeing = 0;
+  std::int32_t next = 0;  ///< position of the first candidate not looked at
 
   FindingCount& operator+=(const FindingCount& other) {
     looked_at += other.looked_at;
     measured += other.measured;
     bright += other.bright;
     disagreeing += other.disagreeing;
+    next = other.next;
     return *this;
   }
 };
@@ -64,6 +66,7 @@ struct LookRange {
   std::int32_t first = 0;  ///< position in the list
   std::int32_t end = 0;    ///< behind the last
   std::int32_t range_px = 3;
+  std::int32_t enough = kMaxTubesInView;  ///< measured tube-ends in the record that end the call
 };
 
 /// Measures every usable tube-end among the candidates: verifies it by the cross-hair, measures its

@@ -172,17 +172,33 @@ StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit,
   return StartRefusal::kNone;
 }
 
+// The width of a bore's image, whether the search window holds it or not; 1/65536 px, zero when it
+// cannot be projected.
+template <Scalar S>
+std::int32_t image_width_q16(const TrackingModel<S>& model, const Vector3<Mm<S>>& center,
+                             const RimSpokes<S>& spokes) {
+  std::int32_t least = 0;
+  std::int32_t most = 0;
+  for (std::size_t k = 0; k < spokes.size(); ++k) {
+    const auto pixel = to_pixel<S>(model, center + spokes[k]);
+    if (!pixel) {
+      return 0;
+    }
+    const std::int32_t u_q16 = to_scaled(pixel->x, 16);
+    least = k == 0 ? u_q16 : std::min(least, u_q16);
+    most = k == 0 ? u_q16 : std::max(most, u_q16);
+  }
+  return most - least;
+}
+
 // The clicked tube-ends must be as large as bores at that distance look.
 template <Scalar S>
 bool sizes_fit(const TrackingModel<S>& model, const SheetPose<S>& pose,
                const AnchorList<S>& anchors) {
   const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
   for (const Anchor<S>& anchor : anchors) {
-    const auto rim = project_rim<S>(model, pose.origin + pose.along(anchor.local), spokes);
-    if (!rim) {
-      return false;
-    }
-    const std::int32_t predicted = 2 * to_scaled(rim->half_extent.x, 16);
+    const std::int32_t predicted =
+        image_width_q16<S>(model, pose.origin + pose.along(anchor.local), spokes);
     if (std::abs(anchor.region.width_q16() - predicted) > predicted / 4) {
       return false;
     }

@@ -137,7 +137,9 @@ typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
   outcome.contradiction = found.bright > std::max(outcome.fit.used, 2) ||
                           (confirm_all && 2 * found.measured < found.looked_at);
   if (!outcome.fit.solved || outcome.fit.used < 2) {
+    // There is light and no tube-end where they must be: no reason to wait for a better picture.
     outcome.trouble = Reason::kNoTubes;
+    outcome.contradiction = true;
     return outcome;
   }
   const auto tool = find_tool_point<S>(*model_, outcome.pose);
@@ -162,20 +164,16 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
   record_.begin_field();
   const PosePrior<S> prior = motion_.known ? prior_from_last_field<S>() : prior_at_start<S>();
   FindingCount found;
-  std::int32_t first = 0;
   if (range_px > kCloseRangePx) {
-    while (first < candidates_.size() && record_.measured.size() < kScouts) {
-      found += measure_field<S>(*model_, field, outcome.pose, candidates_,
-                                {first, first + 1, range_px}, record_);
-      ++first;
-    }
+    found = measure_field<S>(*model_, field, outcome.pose, candidates_,
+                             {0, candidates_.size(), range_px, kScouts}, record_);
     outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
     if (!outcome.fit.solved) {
       return found;
     }
   }
   found += measure_field<S>(*model_, field, outcome.pose, candidates_,
-                            {first, candidates_.size(), kCloseRangePx}, record_);
+                            {found.next, candidates_.size(), kCloseRangePx}, record_);
   outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
   return found;
 }
@@ -212,7 +210,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const Outcome outcome = observe(field.pixels, predicted, believed, false);
   if (outcome.contradiction) {
-    doubt(Reason::kJump, predicted, reach);
+    doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted, reach);
     return;
   }
   if (!outcome.fitted) {
