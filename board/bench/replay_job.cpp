@@ -20,9 +20,9 @@ using core::Unexpected;
 constexpr std::int32_t kFullLamp_permille = 1000;
 /// What make_tracking_model() asks for beyond the ranges of the single keys.
 constexpr const char* kBeyondArithmetic =
-    ": the tracking cannot compute with these settings together, expected position_mm within 1000 "
-    "mm, max_speed_mm_s up to 2000, neighbouring tubes from 2 mm apart and a picture within 60 "
-    "degrees of the optical axis";
+    ": the tracking cannot compute with these settings together, expected neighbouring tubes from "
+    "2 "
+    "mm apart and a picture within 60 degrees of the optical axis";
 
 /// One replay; holds what a field needs, so that nothing large lies on the stack.
 template <core::Scalar S>

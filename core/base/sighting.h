@@ -24,9 +24,9 @@ enum class Reason : std::uint8_t {
   kFewTubes,      ///< degraded: two tube-ends left
   kDark,          ///< coasting: the picture shows no light
   kWashedOut,     ///< coasting: the picture is saturated
-  kNoTubes,       ///< coasting: no tube-end where the motion says they are
+  kNoTubes,       ///< there is light and no tube-end where the motion says they are
   kDamagedField,  ///< coasting: the field's pixels are not to be used
-  kUncertain,     ///< degraded: the address is too near to its rounding limit
+  kUncertain,     ///< degraded: the picture determines the tool's place to over 0.75 mm only
   kCoasted,       ///< lost: the region the tool can have reached grew too large
   kJump,          ///< the picture contradicts any motion within the limits
   kSpeed,         ///< lost: faster than the limits of [motion]

@@ -39,9 +39,10 @@ struct PoseFit {
 /// Fits the pose to all measured tube-ends by weighted least squares on the full projection,
 /// leaning sheet included; tube-ends that disagree with the plane are marked unused.
 ///
-/// `pose` is the prediction and becomes the fit. Three Gauss-Newton steps; the outlier limit
-/// follows the median distance. `equations` is left factored at the last step, for deviations. Not
-/// solved with no tube-end or a singular geometry. Some 1,500 instructions a tube-end.
+/// `pose` is the prediction and becomes the fit. Gauss-Newton steps until nothing that matters
+/// changes, four at most; the outlier limit follows the median distance. `equations` is left
+/// factored at the last step, for deviations. Not solved with no tube-end or a singular geometry.
+/// Some 1,500 instructions a tube-end.
 template <Scalar S>
 [[nodiscard]] PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
                                   MeasurementList<S>& tubes, NormalEquations<S>& equations,

@@ -10,7 +10,7 @@
 namespace tubesight::core::tracking {
 
 /// Camera-frame point to the image plane at unit distance; empty nearer than 8 mm to the projection
-/// point's plane, behind it or over 60 degrees off the axis.
+/// point's plane, behind it or over 63 degrees off the axis.
 template <Scalar S>
 [[nodiscard]] std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point);
 

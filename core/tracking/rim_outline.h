@@ -30,7 +30,7 @@ struct RimOutline {
   std::array<Vector2<Px<S>>, kRimPoints> points{};
   Vector2<Px<S>> center{};       ///< image of the tube-end's centre
   Vector2<Px<S>> middle{};       ///< mean of the points: near the outline's own centre
-  Vector2<Px<S>> half_extent{};  ///< half the bounding box of the points: within 4 % of the rim's
+  Vector2<Px<S>> half_extent{};  ///< half the bounding box of the points: within 8 % of the rim's
 
   /// The tangent at a point, px per rad: the chord between its neighbours, which is exact for an
   /// ellipse and within 1 % for rims.

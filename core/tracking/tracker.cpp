@@ -256,9 +256,13 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   last_time_ = field.mid_exposure;
   contradictions_ = 0;
   measured_now_ = true;
-  const bool few = outcome.fit.used < 3;
-  state_ = few ? TrackState::kDegraded : TrackState::kTracking;
-  reason_ = few ? Reason::kFewTubes : Reason::kNone;
+  const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
+  if (outcome.fit.used < 3) {
+    reason_ = Reason::kFewTubes;
+  } else {
+    reason_ = outcome.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
+  }
+  state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
   choose_primary();
   reanchor();
   shown_ = pose_;

@@ -21,13 +21,13 @@ constexpr NumberRange kCell{0.0005, 0.1, " mm"};  // half a micrometre to 100
 constexpr NumberRange kScale{0.5, 2.0, ""};
 constexpr NumberRange kDistortion{-10.0, 10.0, " per mm2"};
 constexpr NumberRange kDistortion2{-10.0, 10.0, " per mm4"};
-constexpr NumberRange kToolPosition{-5000.0, 5000.0, " mm"};
+constexpr NumberRange kToolPosition{-1000.0, 1000.0, " mm"};
 constexpr NumberRange kAngle{-360.0, 360.0, " degrees"};
 constexpr NumberRange kSheetPlace{-kLargestSheet_mm, kLargestSheet_mm, " mm"};
 constexpr NumberRange kStep{-500.0, 500.0, " mm"};
 constexpr NumberRange kBore{1.0, 200.0, " mm"};
 constexpr WholeRange kAddress{-9999, 9999};
-constexpr NumberRange kSpeed{1.0, 10000.0, " mm/s"};
+constexpr NumberRange kSpeed{1.0, 1600.0, " mm/s"};
 constexpr NumberRange kAcceleration{1.0, 1000000.0, " mm/s2"};
 constexpr WholeRange kInitialThreshold{0, 24 * 255};  // a sum of 24 grey values
 constexpr WholeRange kRegionThreshold{0, 255};

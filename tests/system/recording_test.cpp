@@ -1,5 +1,5 @@
-// The program on the recording that comes with the project: results to the byte on every machine, and
-// right against the truth.
+// The program on the recording that comes with the project: results to the byte on every machine,
+// and right against the truth.
 
 #include <cmath>
 #include <cstdlib>
@@ -171,8 +171,7 @@ TEST_P(ShippedRecordingIn, MeasuresTheCentresOfTubeEndsAndMissesNone) {
       continue;
     }
     const int field = 2 * std::atoi(t.at("frame").c_str()) + std::atoi(t.at("field").c_str());
-    const auto found =
-        measured.find(std::to_string(field) + "/" + t.at("row") + "/" + t.at("col"));
+    const auto found = measured.find(std::to_string(field) + "/" + t.at("row") + "/" + t.at("col"));
     ASSERT_NE(found, measured.end()) << field << ": " << t.at("row") << ", " << t.at("col");
     EXPECT_GT(number(found->second, "quality"), 0.0);
     squares += std::pow(number(found->second, "u_px") - u, 2) +

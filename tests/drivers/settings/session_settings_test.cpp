@@ -189,7 +189,7 @@ TEST_F(SessionSettings, ChecksTheStart) {
 TEST_F(SessionSettings, ChecksTheOptionalTables) {
   EXPECT_EQ(load(kWhole + "[motion]\nmax_speed_mm_s = 0\n[edges]\nregion_threshold = 256\n"
                           "[verification]\nwithin = 2\n[[tool_quality]]\n"),
-            (Messages{"s.toml:31: motion.max_speed_mm_s: 0, expected a number from 1 to 10000 mm/s",
+            (Messages{"s.toml:31: motion.max_speed_mm_s: 0, expected a number from 1 to 1600 mm/s",
                       "s.toml:33: edges.region_threshold: 256, expected an integer from 0 to 255",
                       "s.toml:35: verification.within: unknown key, expected one of "
                       "aligned_within_mm",

@@ -1,0 +1,194 @@
+#include "core/session/session.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/session/sheet_run.h"
+
+namespace tubesight::core::session {
+namespace {
+
+using Verdict = Reply::Verdict;
+using tracking::StartRefusal;
+
+class SessionOf : public ::testing::Test {
+ protected:
+  void SetUp() override { run_.configure(); }
+
+  [[nodiscard]] Reply only_reply() const {
+    EXPECT_EQ(run_.output().replies.size(), 1);
+    return run_.output().replies.empty() ? Reply{} : run_.output().replies[0];
+  }
+
+  SheetRun<FixedPoint> run_;
+};
+
+TEST_F(SessionOf, WaitsUntilSomebodyNamesTubes) {
+  for (int i = 0; i < 3; ++i) {
+    run_.step(kOverTube);
+    EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
+    EXPECT_EQ(run_.sighting().reason, Reason::kNoStart);
+    EXPECT_TRUE(run_.output().replies.empty());
+  }
+}
+
+TEST_F(SessionOf, TakesAStartInTheFieldThatItCameWith) {
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
+  run_.step(kOverTube);
+  EXPECT_EQ(run_.sighting().state, TrackState::kTracking);
+  EXPECT_EQ(run_.sighting().tool, kTube);
+  EXPECT_TRUE(run_.sighting().aligned);
+  EXPECT_EQ(only_reply().kind, EventKind::kStart);
+  EXPECT_EQ(only_reply().verdict, Verdict::kTaken);
+}
+
+TEST_F(SessionOf, RefusesAStartAndSaysWhy) {
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}});
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
+  EXPECT_EQ(only_reply().refusal, StartRefusal::kTooFew);
+  EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
+  EXPECT_EQ(run_.sighting().reason, Reason::kStartRefused);
+}
+
+TEST_F(SessionOf, RefusesAStartOnAPictureThatShowsOtherTubeEndsElsewhere) {
+  // The three clicked tube-ends stand; all others are blank though the settings have them.
+  for (std::int32_t row = 0; row < 40; ++row) {
+    for (std::int32_t column = -10; column < 30; ++column) {
+      const TubeAddress tube{row, column};
+      if (tube != TubeAddress{20, 10} && tube != TubeAddress{21, 10} &&
+          tube != TubeAddress{20, 11}) {
+        run_.sheet->look.flush_plugs.push_back(tube);
+      }
+    }
+  }
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
+  EXPECT_EQ(only_reply().refusal, StartRefusal::kPicture);
+}
+
+TEST_F(SessionOf, RefusesAStartInADamagedOrBlackField) {
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
+  run_.status = FieldStatus::kDamaged;
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().refusal, StartRefusal::kPicture);
+  run_.sheet->look.gain = 0.0;
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
+  EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
+}
+
+TEST_F(SessionOf, GivesARunningTrackUpForANewStartEvenARefusedOne) {
+  run_.begin();
+  run_.add_start(kOverTube, {{20, 10}});
+  run_.step(kOverTube);
+  EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
+  run_.step(kOverTube);
+  EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
+}
+
+TEST_F(SessionOf, ConfirmsARightClaimAndContradictsAWrongOne) {
+  run_.begin();
+  run_.add_claim(kTube);
+  run_.add_claim({20, 11});
+  run_.step(kOverTube);
+  const auto& replies = run_.output().replies;
+  ASSERT_EQ(replies.size(), 2);
+  EXPECT_EQ(replies[0].kind, EventKind::kClaim);
+  EXPECT_EQ(replies[0].verdict, Verdict::kConfirmed);
+  EXPECT_EQ(replies[0].tube, kTube);
+  EXPECT_EQ(replies[1].verdict, Verdict::kContradicted);
+  EXPECT_EQ(replies[1].tube, kTube) << "the tube that the box vouches for";
+}
+
+TEST_F(SessionOf, CannotTellWhatToSayToAClaimWithoutAnAlignedTube) {
+  run_.add_claim(kTube);
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "waiting";
+
+  run_.begin();
+  for (int i = 0; i < 20; ++i) {
+    run_.step(moved(kOverTube, way_after(i * kFieldSpan_s, 8.0, 100.0, 2000.0)));
+  }
+  run_.add_claim(kTube);
+  run_.step(moved(kOverTube, 8.0));
+  ASSERT_EQ(run_.sighting().state, TrackState::kTracking);
+  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "8 mm off, beyond aligned_within_mm";
+
+  run_.sheet->look.gain = 0.0;
+  run_.add_claim(kTube);
+  run_.step(moved(kOverTube, 8.0));
+  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "coasting";
+}
+
+TEST_F(SessionOf, NamesTheTubeThatTheOperatorPicks) {
+  run_.add_pick(run_.sheet->image_of(kOverTube, kTube));
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "waiting";
+
+  run_.begin();
+  for (const TubeAddress tube : {TubeAddress{20, 10}, TubeAddress{22, 9}, TubeAddress{21, 12}}) {
+    const auto center = run_.sheet->center_of(tube);
+    // Anywhere in the tube's cell, 9 mm off here.
+    run_.add_pick(run_.sheet->image_of(kOverTube, {center[0] + 7.0, center[1] - 6.0, 0.0}));
+    run_.step(kOverTube);
+    EXPECT_EQ(only_reply().kind, EventKind::kPick);
+    EXPECT_EQ(only_reply().verdict, Verdict::kConfirmed);
+    EXPECT_EQ(only_reply().tube, tube);
+  }
+}
+
+TEST(SessionPick, FindsNoTubeInAVoid) {
+  SheetRun<FixedPoint> run;
+  ASSERT_TRUE(run.settings->tubesheet.missing.try_push_back({22, 10}));
+  run.configure();
+  run.begin();
+  run.add_pick(run.sheet->image_of(kOverTube, TubeAddress{22, 10}));
+  run.step(kOverTube);
+  ASSERT_EQ(run.output().replies.size(), 1);
+  EXPECT_EQ(run.output().replies[0].verdict, Verdict::kUnknown);
+}
+
+TEST_F(SessionOf, AnswersEveryEventInOrder) {
+  run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
+  run_.add_claim(kTube);
+  for (const EventKind kind :
+       {EventKind::kLampCommand, EventKind::kPoseRequest, EventKind::kAcknowledge}) {
+    Event event;
+    event.kind = kind;
+    run_.add(event);
+  }
+  run_.step(kOverTube);
+  const auto& replies = run_.output().replies;
+  ASSERT_EQ(replies.size(), 5);
+  EXPECT_EQ(replies[0].kind, EventKind::kStart);
+  EXPECT_EQ(replies[1].kind, EventKind::kClaim);
+  EXPECT_EQ(replies[1].verdict, Verdict::kConfirmed);
+  EXPECT_EQ(replies[2].kind, EventKind::kLampCommand);
+  EXPECT_EQ(replies[3].kind, EventKind::kPoseRequest);
+  EXPECT_EQ(replies[4].kind, EventKind::kAcknowledge);
+  for (std::int32_t i = 2; i < 5; ++i) {
+    EXPECT_EQ(replies[i].verdict, Verdict::kNotServed) << i;
+  }
+  EXPECT_EQ(run_.output().lamp_permille, 700);
+}
+
+TEST_F(SessionOf, KeepsItsTrackingStateSmall) {
+  EXPECT_LE(Session<FixedPoint>::tracking_state_bytes(), 64 * 1024);
+}
+
+TEST(SessionConfigure, RefusesSettingsOutOfRange) {
+  const auto settings = std::make_unique<SessionSettings>();
+  const auto session = std::make_unique<Session<FixedPoint>>();
+  tests::make_synthetic_settings(*settings);
+  EXPECT_TRUE(session->configure(*settings).has_value());
+  settings->tubesheet.rows = {5, 4};
+  EXPECT_EQ(session->configure(*settings).error(), Error::kInvalidArgument);
+  settings->tubesheet.rows = {4, 5};
+  settings->camera.focal_length_mm = -1.0;
+  EXPECT_EQ(session->configure(*settings).error(), Error::kOutOfRange);
+}
+
+}  // namespace
+}  // namespace tubesight::core::session

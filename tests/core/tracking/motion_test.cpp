@@ -1,0 +1,169 @@
+#include "core/tracking/motion.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/tracking/tracking_test_support.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+template <typename S>
+class MotionOf : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    scene_.settings->motion = {300.0, 3000.0};
+    scene_.make();
+  }
+
+  Scene<S> scene_;
+};
+TYPED_TEST_SUITE(MotionOf, Scalars);
+
+TYPED_TEST(MotionOf, CountsSecondsWithinOne) {
+  EXPECT_NEAR(number(seconds<TypeParam>(microseconds(16667))), 0.016667, 1e-8);
+  EXPECT_EQ(number(seconds<TypeParam>(milliseconds(250))), 0.25);
+  EXPECT_EQ(number(seconds<TypeParam>(milliseconds(-5))), 0.0);
+  EXPECT_EQ(number(seconds<TypeParam>(std::chrono::hours(3))), 1.0);
+}
+
+TYPED_TEST(MotionOf, ReachesAsFarAsAccelerationTakesIt) {
+  // 3000 mm/s^2 * 0.02 s * (0.02 s + 0.02 s) / 2 = 1.2 mm.
+  Motion<TypeParam> motion;
+  motion.known = true;
+  motion.interval_s = Unit<TypeParam>(0.02);
+  const auto span = Unit<TypeParam>(0.02);
+  // Fixed point writes the interval in steps of 1e-6 s.
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, span)), 1.2, 1e-4);
+
+  // 0.06 s after such an interval: 3000 * 0.06 * 0.08 / 2 = 7.2 mm.
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.06))),
+              7.2, 1e-4);
+}
+
+TYPED_TEST(MotionOf, ReachesNoFartherThanFromOneGreatestSpeedToTheOther) {
+  // After 0.5 s acceleration would allow 390 mm; from +300 to -300 mm/s it is 300 mm.
+  Motion<TypeParam> motion;
+  motion.known = true;
+  motion.interval_s = Unit<TypeParam>(0.02);
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.5))),
+              300.0, 1e-3);
+}
+
+TYPED_TEST(MotionOf, IsAtMostTheGreatestSpeedsWayWhenUnknown) {
+  const Motion<TypeParam> unknown;
+  // 300 mm/s * 0.02 s; and never so far that the next tube-end could be meant.
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, unknown, Unit<TypeParam>(0.02))),
+              6.0, 1e-4);
+  for (const double span : {0.03, 0.05, 0.1, 0.3}) {
+    EXPECT_LE(number(reachable_mm<TypeParam>(this->scene_.model, unknown, Unit<TypeParam>(span))),
+              std::min(300.0 * span, 25.4 / 2.0))
+        << span;
+  }
+}
+
+TYPED_TEST(MotionOf, PredictsConstantSpeedOfTheToolOverTheSheet) {
+  const SyntheticSheet sheet(*this->scene_.settings);
+  const ToolPlace place{250.0, 512.0, 55.0, 20.0, 0.5, -0.3};
+  const auto pose = pose_at<TypeParam>(*this->scene_.settings, sheet, place, kTube);
+  const auto tool = find_tool_point<TypeParam>(this->scene_.model, pose);
+  ASSERT_TRUE(tool.has_value());
+  using M = Mm<TypeParam>;
+  Motion<TypeParam> motion;
+  motion.known = true;
+  motion.interval_s = Unit<TypeParam>(0.02);
+  motion.velocity_mm_s = {M(60), M(-30)};
+  motion.approach_mm_s = M(20);
+  for (const double turn : {0.0, 0.1}) {
+    motion.turn_rad_s = {M(turn), M(0), M(-turn)};
+
+    const auto after =
+        predict<TypeParam>(this->scene_.model, pose, *tool, motion, Unit<TypeParam>(0.125));
+
+    const auto there = find_tool_point<TypeParam>(this->scene_.model, after);
+    ASSERT_TRUE(there.has_value());
+    // Rising by 2.5 mm along a normal that leans by 0.6 degrees, and by up to 1.0 more with the
+    // turn, takes the axis' point 2.5 mm times the lean aside: the prediction leaves that out.
+    const double near = 2.5 * (0.0102 + 0.125 * 1.42 * turn) + bound<TypeParam>(1e-6, 1e-3, 1e-4);
+    EXPECT_NEAR(number(there->local.x - tool->local.x), 7.5, near) << "turn " << turn;
+    EXPECT_NEAR(number(there->local.y - tool->local.y), -3.75, near) << "turn " << turn;
+    EXPECT_NEAR(number(there->height_mm - tool->height_mm), 2.5, near) << "turn " << turn;
+    // 0.1 rad/s for 0.125 s about the camera's x less its z axis.
+    const Eigen::Vector3d w(0.125 * turn, 0.0, -0.125 * turn);
+    const Eigen::Vector3d normal = vector(pose.normal);
+    EXPECT_LT((vector(after.normal) - normal - w.cross(normal)).norm(), 2e-4 * (turn > 0) + 1e-6);
+  }
+}
+
+TYPED_TEST(MotionOf, PredictsNoMotionWhileItIsUnknown) {
+  const SyntheticSheet sheet(*this->scene_.settings);
+  const auto pose = pose_at<TypeParam>(*this->scene_.settings, sheet, kOverTube, kTube);
+  const auto tool = find_tool_point<TypeParam>(this->scene_.model, pose);
+  ASSERT_TRUE(tool.has_value());
+  const auto after = predict<TypeParam>(this->scene_.model, pose, *tool, {}, Unit<TypeParam>(0.5));
+  EXPECT_TRUE(after.origin == pose.origin);
+  EXPECT_TRUE(after.normal == pose.normal);
+}
+
+TYPED_TEST(MotionOf, IsReadFromTwoPoses) {
+  // 0.02 s apart: 3 mm along x, -1 mm along y, 0.5 mm nearer.
+  const SyntheticSheet sheet(*this->scene_.settings);
+  const ToolPlace first{250.0, 512.0, 55.0, 20.0, 0.0, 0.0};
+  const ToolPlace second{253.0, 511.0, 54.5, 20.0, 0.0, 0.0};
+  const auto before = pose_at<TypeParam>(*this->scene_.settings, sheet, first, kTube);
+  const auto after = pose_at<TypeParam>(*this->scene_.settings, sheet, second, kTube);
+  const auto tool_before = find_tool_point<TypeParam>(this->scene_.model, before);
+  const auto tool_after = find_tool_point<TypeParam>(this->scene_.model, after);
+  ASSERT_TRUE(tool_before && tool_after);
+
+  const auto motion = motion_between<TypeParam>(before, *tool_before, after, *tool_after, {},
+                                                Unit<TypeParam>(0.02));
+
+  ASSERT_TRUE(motion.known);
+  // Fixed point: a span in steps of 1e-6 s, 0.5e-6 / 0.02 of 150 mm/s are 0.004.
+  const double near = bound<TypeParam>(1e-6, 1e-2, 5e-3);
+  EXPECT_NEAR(number(motion.velocity_mm_s.x), 150.0, near);
+  EXPECT_NEAR(number(motion.velocity_mm_s.y), -50.0, near);
+  EXPECT_NEAR(number(motion.approach_mm_s), -25.0, near);
+  EXPECT_NEAR(vector(motion.turn_rad_s).norm(), 0.0, bound<TypeParam>(1e-9, 2e-5, 1e-5));
+}
+
+TYPED_TEST(MotionOf, ReadsTheTurnsSenseAndNoMoreThanItsSize) {
+  // A heading that grows by 0.2 degrees turns the sheet the other way before the camera: about the
+  // normal by -0.00349 rad, -0.1745 rad/s; smoothing may halve it.
+  const SyntheticSheet sheet(*this->scene_.settings);
+  const auto before = pose_at<TypeParam>(*this->scene_.settings, sheet,
+                                         {250.0, 512.0, 55.0, 20.0, 0.0, 0.0}, kTube);
+  const auto after = pose_at<TypeParam>(*this->scene_.settings, sheet,
+                                        {250.0, 512.0, 55.0, 20.2, 0.0, 0.0}, kTube);
+  const auto tool_before = find_tool_point<TypeParam>(this->scene_.model, before);
+  const auto tool_after = find_tool_point<TypeParam>(this->scene_.model, after);
+  ASSERT_TRUE(tool_before && tool_after);
+
+  auto motion = motion_between<TypeParam>(before, *tool_before, after, *tool_after, {},
+                                          Unit<TypeParam>(0.02));
+  const double first = vector(motion.turn_rad_s).dot(vector(after.normal));
+  EXPECT_LE(first, -0.2 * 0.1745);
+  EXPECT_GE(first, -1.01 * 0.1745);
+  // Kept up, it comes near the whole of it.
+  for (int i = 0; i < 10; ++i) {
+    motion = motion_between<TypeParam>(before, *tool_before, after, *tool_after, motion,
+                                       Unit<TypeParam>(0.02));
+  }
+  EXPECT_NEAR(vector(motion.turn_rad_s).dot(vector(after.normal)), -0.1745, 0.001);
+}
+
+TYPED_TEST(MotionOf, KeepsTheLastMotionWithinAMillisecond) {
+  using M = Mm<TypeParam>;
+  Motion<TypeParam> last;
+  last.known = true;
+  last.velocity_mm_s = {M(12), M(34)};
+  const auto motion = motion_between<TypeParam>({}, {}, {}, {}, last, Unit<TypeParam>(0.0005));
+  EXPECT_EQ(number(motion.velocity_mm_s.x), 12.0);
+  EXPECT_EQ(number(motion.velocity_mm_s.y), 34.0);
+}
+
+}  // namespace
+}  // namespace tubesight::core::tracking
