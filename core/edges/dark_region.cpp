@@ -115,15 +115,22 @@ std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px, std::int
                              std::int32_t reach_u_px, std::int32_t reach_v_px) {
   const std::int32_t line = (v_px - field.first_line) / field.line_step;
   const std::int32_t reach_lines = reach_v_px / field.line_step;
-  const auto at = [&field](std::int32_t u, std::int32_t l) {
-    u = std::clamp(u, 0, field.width_px - 1);
-    l = std::clamp(l, 0, field.lines - 1);
-    return std::int32_t{field.pixels[static_cast<std::ptrdiff_t>(l) * field.stride_px + u]};
+  const auto along = [](std::int32_t at, std::int32_t step, std::int32_t size) {
+    return std::clamp(at + step, 0, size - 1);
   };
+  const auto* row =
+      field.pixels + static_cast<std::ptrdiff_t>(along(line, 0, field.lines)) * field.stride_px;
+  const auto* column = field.pixels + along(u_px, 0, field.width_px);
   std::int32_t sum = 0;
   for (std::int32_t i = 1; i <= 4; ++i) {
-    sum += at(u_px + reach_u_px * i / 4, line) + at(u_px - reach_u_px * i / 4, line) +
-           at(u_px, line + reach_lines * i / 4) + at(u_px, line - reach_lines * i / 4);
+    const std::int32_t across = reach_u_px * i / 4;
+    const std::int32_t down = reach_lines * i / 4;
+    const auto at_line = [&](std::int32_t step) {
+      return std::int32_t{
+          column[static_cast<std::ptrdiff_t>(along(line, step, field.lines)) * field.stride_px]};
+    };
+    sum += row[along(u_px, across, field.width_px)] + row[along(u_px, -across, field.width_px)] +
+           at_line(down) + at_line(-down);
   }
   return sum / 16;
 }

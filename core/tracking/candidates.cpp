@@ -81,12 +81,12 @@ void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
     list.truncate(list.size() - 1);
   }
   static_cast<void>(list.try_push_back(candidate));
-  for (std::int32_t i = list.size() - 1; i > 0; --i) {
-    if (list[i - 1].distance2_px <= candidate.distance2_px) {
-      break;
-    }
-    std::swap(list[i - 1], list[i]);
+  Candidate<S>* place = list.end() - 1;
+  while (place != list.begin() && candidate.distance2_px < (place - 1)->distance2_px) {
+    *place = *(place - 1);
+    --place;
   }
+  *place = candidate;
 }
 
 }  // namespace

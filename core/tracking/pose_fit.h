@@ -42,7 +42,7 @@ struct PoseFit {
 /// `pose` is the prediction and becomes the fit. Gauss-Newton steps until nothing that matters
 /// changes, four at most; the outlier limit follows the median distance. `equations` is left
 /// factored at the last step, for deviations. Not solved with no tube-end or a singular geometry.
-/// Some 1,500 instructions a tube-end.
+/// Some 2,500 instructions a tube-end.
 template <Scalar S>
 [[nodiscard]] PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
                                   MeasurementList<S>& tubes, NormalEquations<S>& equations,

@@ -5,19 +5,6 @@
 namespace tubesight::core::tracking {
 
 template <Scalar S>
-std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point) {
-  if (point.z < from_scaled<Mm<S>>(8, 0)) {
-    return std::nullopt;
-  }
-  const Mm<S> reach = point.z + point.z;
-  if (absolute(point.x) > reach || absolute(point.y) > reach) {
-    return std::nullopt;
-  }
-  return Vector2<Ratio<S>>{quotient<Ratio<S>>(point.x, point.z),
-                           quotient<Ratio<S>>(point.y, point.z)};
-}
-
-template <Scalar S>
 std::optional<Vector2<Px<S>>> to_pixel(const TrackingModel<S>& model, const Vector3<Mm<S>>& point) {
   const auto plane = to_plane<S>(point);
   return plane ? model.camera.to_pixel(*plane) : std::nullopt;
@@ -48,7 +35,6 @@ std::optional<Vector2<Mm<S>>> to_sheet(const TrackingModel<S>& model, const Shee
 }
 
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
-  template std::optional<Vector2<Ratio<S>>> to_plane<S>(const Vector3<Mm<S>>&);                    \
   template std::optional<Vector2<Px<S>>> to_pixel<S>(const TrackingModel<S>&,                      \
                                                      const Vector3<Mm<S>>&);                       \
   template std::optional<Vector2<Px<S>>> project<S>(const TrackingModel<S>&, const SheetPose<S>&,  \

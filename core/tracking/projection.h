@@ -12,7 +12,17 @@ namespace tubesight::core::tracking {
 /// Camera-frame point to the image plane at unit distance; empty nearer than 8 mm to the projection
 /// point's plane, behind it or over 63 degrees off the axis.
 template <Scalar S>
-[[nodiscard]] std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point);
+[[nodiscard]] std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point) {
+  if (point.z < from_scaled<Mm<S>>(8, 0)) {
+    return std::nullopt;
+  }
+  const Mm<S> reach = point.z + point.z;
+  if (absolute(point.x) > reach || absolute(point.y) > reach) {
+    return std::nullopt;
+  }
+  return Vector2<Ratio<S>>{quotient<Ratio<S>>(point.x, point.z),
+                           quotient<Ratio<S>>(point.y, point.z)};
+}
 
 /// Camera-frame point to full-frame pixel; empty where to_plane() or the camera model is.
 template <Scalar S>

@@ -39,7 +39,7 @@ struct RimOutline {
 
 /// Projects the rim of the tube-end at `center` (camera frame, mm). Empty when part of it cannot be
 /// projected or falls more than two pixels outside the search window, which a prediction may be
-/// off. Some 3,000 instructions, fewer for a rim outside.
+/// off. Some 4,000 instructions, fewer for a rim outside.
 template <Scalar S>
 [[nodiscard]] std::optional<RimOutline<S>> project_rim(const TrackingModel<S>& model,
                                                        const Vector3<Mm<S>>& center,

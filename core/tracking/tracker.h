@@ -37,7 +37,7 @@ class Tracker {
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
   void request_start(const StartClickList& clicks);
 
-  /// Processes one field. Costs some 10,000 instructions a tube-end in view.
+  /// Processes one field. Costs some 19,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
 
   /// Why the last start was refused.

@@ -45,7 +45,7 @@ struct TubeMeasurement {
 /// the true image of a circle about the predicted centre, the shift applies to that centre: the
 /// bias of an ellipse's centre does not arise.
 ///
-/// `result.predicted_px` is read; the rest is written. About 6,000 instructions.
+/// `result.predicted_px` is read; the rest is written. About 10,000 instructions.
 template <Scalar S>
 [[nodiscard]] Finding measure_tube(const FieldView& field, const RimOutline<S>& rim,
                                    const MeasurementBounds& bounds,

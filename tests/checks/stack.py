@@ -28,6 +28,8 @@ PANIC = re.compile(r"^_ZN9tubesight4core5panicE")
 
 NODE = re.compile(r'^node: \{ title: "([^"]*)" label: "([^"]*)"')
 EDGE = re.compile(r'^edge: \{ sourcename: "([^"]*)" targetname: "([^"]*)"')
+# Template functions are titled with the file that they were compiled in: "tracker.cpp:_ZN9...".
+FILE_OF_TITLE = re.compile(r'"[^"]*:(_Z[^"]*)"')
 SIZE = re.compile(r"\\n(\d+) bytes \((static|dynamic,bounded|dynamic)\)")
 
 
@@ -36,6 +38,7 @@ def read(files):
     size, kind, label, calls = {}, {}, {}, {}
     for path in files:
         for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+            line = FILE_OF_TITLE.sub(r'"\1"', line)
             node, edge = NODE.match(line), EDGE.match(line)
             if node:
                 found = SIZE.search(node.group(2))
@@ -121,9 +124,35 @@ PLANTED = [
 ]
 
 
+# A call from one file into a template function of another: 3000 bytes each.
+PLANTED_PAIR = (
+    "template <typename T> int deep(T value);\n"
+    "extern template int deep<int>(int);\n"
+    "int shallow(int value) {\n"
+    "  volatile char bytes[3000];\n"
+    "  bytes[value] = 1;\n"
+    "  return deep<int>(value) + bytes[value];\n"
+    "}\n",
+    "template <typename T> int deep(T value) {\n"
+    "  volatile char bytes[3000];\n"
+    "  bytes[value] = 1;\n"
+    "  return bytes[value];\n"
+    "}\n"
+    "template int deep<int>(int);\n")
+
+
 def self_test(compiler):
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
+        callgraphs = []
+        for name, text in zip(("caller", "called"), PLANTED_PAIR):
+            source = pathlib.Path(folder, name + ".cpp")
+            source.write_text(text, encoding="utf-8")
+            subprocess.run([compiler, "-std=c++20", "-O2", "-fcallgraph-info=su", "-c", source, "-o",
+                            pathlib.Path(folder, name + ".o")], check=True)
+            callgraphs.append(pathlib.Path(folder, name + ".ci"))
+        if not check(callgraphs, 5000)[0]:
+            wrong.append("a chain of 6000 bytes over two files was not noticed")
         source = pathlib.Path(folder, "a.cpp")
         for text, expected in PLANTED:
             source.write_text(NOINLINE + text, encoding="utf-8")
