@@ -46,9 +46,10 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   const M milliseconds = times(from_scaled<M>(1000, 0), span_s);
   const M farthest = times(model.max_speed_mm_s, span_s);
   const M interval_ms = motion.known ? times(from_scaled<M>(1000, 0), motion.interval_s) : M{};
-  // mm = m/s^2 s ms.
-  const M grown = times(times(model.max_acceleration_m_s2, convert<M>(span_s)),
-                        times(milliseconds + interval_ms, from_scaled<M>(1, 1)));
+  // mm = m/s^2 s ms. A change of speed by 2 m/s is beyond any limit and still within the format.
+  const M change =
+      std::min(times(model.max_acceleration_m_s2, convert<M>(span_s)), from_scaled<M>(2, 0));
+  const M grown = times(change, times(milliseconds + interval_ms, from_scaled<M>(1, 1)));
   if (motion.known) {
     return std::min(grown, farthest + farthest);
   }

@@ -67,42 +67,31 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
     lose(Reason::kArithmetic);
   }
   report(field, sighting, tubes);
+  if (take_overflow_flag()) {
+    lose(Reason::kArithmetic);
+    report(field, sighting, tubes);
+  }
+  seen_time_ = field.mid_exposure;
+  seen_sequence_ = field.sequence;
 }
 
+// The time since the last good field, by its stamps or by the lost sequence numbers, whichever is
+// longer: the shortest time seen for a number is what each lost one took at least.
 template <Scalar S>
-void Tracker<S>::start(const Field& field) {
-  state_ = TrackState::kWaiting;
-  reason_ = Reason::kStartRefused;
-  primary_known_ = false;
-  motion_ = {};
-  contradictions_ = 0;
-  record_.plugs.clear();
-  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
-  record_.light.region_threshold = model_->region_threshold;
-  if (field.status != FieldStatus::kGood) {
-    start_refusal_ = StartRefusal::kPicture;
-    return;
+FieldTime Tracker<S>::span_since_good(const Field& field) {
+  constexpr std::int64_t kMany = 1'000'000;
+  const std::int64_t lost = std::clamp<std::int64_t>(field.sequence - last_sequence_, 0, kMany);
+  const FieldTime told(lost * std::min<std::int64_t>(per_sequence_ns_, 1'000'000'000));
+  // Learnt from neighbours alone: a field without a gap before it, whatever its numbers grow by.
+  const std::int64_t numbers = field.sequence - seen_sequence_;
+  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
+  if (numbers > 0 && (usual_numbers_ == 0 || numbers <= usual_numbers_)) {
+    const std::int64_t each = passed / numbers;
+    const bool first = numbers != usual_numbers_;
+    per_sequence_ns_ = first ? each : std::min(per_sequence_ns_, each);
+    usual_numbers_ = numbers;
   }
-  SheetPose<S> pose;
-  start_refusal_ = find_start_pose<S>(*model_, *map_, field.pixels, clicks_, record_.light, pose);
-  if (start_refusal_ != StartRefusal::kNone) {
-    return;
-  }
-  // The rough pose of three bisected tube-ends is refined on the whole window until it settles.
-  Outcome outcome;
-  outcome.pose = pose;
-  for (int round = 0; round < 4; ++round) {
-    outcome = observe(field.pixels, outcome.pose, from_scaled<Mm<S>>(2, 0), round == 3);
-    if (!outcome.fitted) {
-      break;
-    }
-  }
-  if (!outcome.fitted || outcome.contradiction || outcome.fit.used < 3) {
-    start_refusal_ = StartRefusal::kPicture;
-    record_.begin_field();  // addresses that were refuted are not told
-    return;
-  }
-  accept(outcome, field, Unit<S>{});
+  return std::max(field.mid_exposure - last_time_, told);
 }
 
 template <Scalar S>
@@ -149,8 +138,12 @@ typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
     return outcome;
   }
   outcome.tool = *tool;
-  const M picture = tool_point_deviation<S>(outcome.pose, *tool, equations_);
-  outcome.deviation_mm = plane_length(Vector2<M>{picture, systematic_mm<M>()});
+  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
+  // of a rim point's fit is known to some 0.125 px then.
+  const M excess = std::max(M(1), times(convert<M>(outcome.fit.rms_px), from_scaled<M>(8, 0)));
+  outcome.picture_deviation_mm =
+      times(tool_point_deviation<S>(outcome.pose, *tool, equations_), excess);
+  outcome.deviation_mm = plane_length(Vector2<M>{outcome.picture_deviation_mm, systematic_mm<M>()});
   outcome.fitted = true;
   return outcome;
 }
@@ -181,18 +174,20 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
 template <Scalar S>
 void Tracker<S>::follow(const Field& field) {
   using M = Mm<S>;
-  const FieldTime span = field.mid_exposure - last_time_;
-  if (span.count() <= 0) {
+  if (field.mid_exposure <= seen_time_ || field.sequence < seen_sequence_) {
     lose(Reason::kTime);
     return;
   }
+  const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(Reason::kGap);
     return;
   }
   const Unit<S> span_s = seconds<S>(span);
   const M reach = reachable_mm<S>(*model_, motion_, span_s);
-  const M uncertain = reach + deviation_mm_ + deviation_mm_ + deviation_mm_;
+  predicted_deviation_mm_ = deviation_mm_ + velocity_deviation_mm(span_s);
+  const M uncertain =
+      reach + predicted_deviation_mm_ + predicted_deviation_mm_ + predicted_deviation_mm_;
   const bool coasting = reason_ != Reason::kNone && state_ == TrackState::kDegraded &&
                         reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
   if (uncertain > address_limit<S>(*model_)) {
@@ -201,9 +196,11 @@ void Tracker<S>::follow(const Field& field) {
   }
   const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
   // A picture that refuted the prediction showed the sheet: what comes back must fit the motion as
-  // closely as if that field had been good, or it is another tube's neighbourhood.
-  const M believed =
-      contradictions_ > 0 ? reachable_mm<S>(*model_, motion_, motion_.interval_s) : reach;
+  // closely as it had to then, or it is another tube's neighbourhood.
+  if (contradictions_ == 0) {
+    believed_mm_ = reach;
+  }
+  const M believed = std::min(believed_mm_, reach);
   if (field.status != FieldStatus::kGood) {
     coast(Reason::kDamagedField, predicted, reach);
     return;
@@ -222,6 +219,22 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   accept(outcome, field, span_s);
+}
+
+// What the last velocity's own uncertainty adds to the prediction: the difference of two places
+// over their interval, carried on over the span.
+template <Scalar S>
+Mm<S> Tracker<S>::velocity_deviation_mm(Unit<S> span_s) const {
+  using M = Mm<S>;
+  if (!motion_.known) {
+    return {};
+  }
+  const M most = from_scaled<M>(32, 0);
+  const M ratio = motion_.interval_s < times(span_s, from_scaled<Unit<S>>(1, 5))
+                      ? most
+                      : quotient<M>(convert<M>(span_s), convert<M>(motion_.interval_s));
+  const M root_two = from_scaled<M>(1449, 10);
+  return times(times(std::min(picture_deviation_mm_, most), root_two), std::min(ratio, most));
 }
 
 template <Scalar S>
@@ -253,7 +266,10 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   pose_ = outcome.pose;
   tool_ = outcome.tool;
   deviation_mm_ = outcome.deviation_mm;
+  predicted_deviation_mm_ = outcome.deviation_mm;
+  picture_deviation_mm_ = outcome.picture_deviation_mm;
   last_time_ = field.mid_exposure;
+  last_sequence_ = field.sequence;
   contradictions_ = 0;
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
@@ -329,7 +345,8 @@ void Tracker<S>::choose_primary() {
     return;
   }
   // 10 % in distance is 19 % in its square.
-  const bool stay = kept != nullptr && 100 * distance2(*nearest) >= 81 * distance2(*kept);
+  const bool stay = kept != nullptr &&
+                    100 * std::int64_t{distance2(*nearest)} >= 81 * std::int64_t{distance2(*kept)};
   primary_ = stay ? kept->address : nearest->address;
   primary_known_ = true;
 }

@@ -63,9 +63,13 @@ class Tracker {
     SheetPose<S> pose{};
     ToolPoint<S> tool{};
     Mm<S> deviation_mm{};
+    Mm<S> picture_deviation_mm{};  ///< the picture's share of it
   };
 
   void start(const Field& field);
+  [[nodiscard]] bool confirms_clicks(const Outcome& outcome) const;
+  [[nodiscard]] FieldTime span_since_good(const Field& field);
+  [[nodiscard]] Mm<S> velocity_deviation_mm(Unit<S> span_s) const;
   void follow(const Field& field);
   [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
                                 Mm<S> reach_mm, bool confirm_all);
@@ -95,11 +99,19 @@ class Tracker {
   SheetPose<S> shown_{};  ///< of this field: fitted, or predicted while coasting
   ToolPoint<S> tool_{};   ///< of pose_
   ToolPoint<S> tool_shown_{};
-  Mm<S> deviation_mm_{};  ///< of tool_shown_, one standard deviation
-  Mm<S> strayed_mm_{};    ///< how far it may be off besides, while coasting
+  Mm<S> deviation_mm_{};            ///< of tool_, one standard deviation
+  Mm<S> picture_deviation_mm_{};    ///< of tool_, without what is systematic
+  Mm<S> predicted_deviation_mm_{};  ///< of tool_shown_
+  Mm<S> believed_mm_{};             ///< reach at the first field that refuted the prediction
+  Mm<S> strayed_mm_{};              ///< how far it may be off besides, while coasting
   Motion<S> motion_{};
-  FieldTime last_time_{0};           ///< of the last good field
-  std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
+  FieldTime last_time_{0};          ///< of the last good field
+  std::int64_t last_sequence_ = 0;  ///< of the last good field
+  FieldTime seen_time_{0};          ///< of the last field, good or not
+  std::int64_t seen_sequence_ = 0;
+  std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
+  std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
+  std::int32_t contradictions_ = 0;   ///< fields in a row that refuted the prediction
   bool measured_now_ = false;
   bool primary_known_ = false;
   TubeAddress primary_{};

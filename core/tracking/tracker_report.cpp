@@ -99,7 +99,7 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
   const TubeAddress nearest = model_->lattice.nearest(shown_.anchor, tool_shown_.local);
   const auto off = tool_shown_.local - model_->lattice.offset(shown_.anchor, nearest);
   const M to_edge = model_->lattice.distance_to_cell_edge(off);
-  const M margin = quotient<M>(to_edge - strayed_mm_, deviation_mm_);
+  const M margin = quotient<M>(to_edge - strayed_mm_, predicted_deviation_mm_);
   sighting.margin_known = true;
   sighting.margin_permyriad =
       static_cast<std::int32_t>(divide_rounded(std::int64_t{to_scaled(margin, 16)} * 10000, 65536));

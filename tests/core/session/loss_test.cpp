@@ -165,6 +165,24 @@ TEST_P(LossByJump, NeverSlipsByATubeOnTheMove) {
   }
 }
 
+TEST_P(LossByJump, NeverSlipsByATubeAfterCoasting) {
+  // The mean velocity is older after a gap and the reach larger: it must not grow from a picture
+  // that refuted it.
+  for (int i = 0; i < 3; ++i) {
+    run_.status = FieldStatus::kDamaged;
+    run_.step(kOverTube);
+  }
+  run_.step(kOverTube);
+  ASSERT_EQ(state(), TrackState::kTracking);
+  const ToolPlace there = moved(kOverTube, GetParam().x * kPitch_mm, GetParam().y * kPitch_mm);
+  for (int i = 0; i < 10; ++i) {
+    run_.step(there);
+  }
+  if (std::hypot(GetParam().x, GetParam().y) >= 0.5) {
+    EXPECT_EQ(state(), TrackState::kLost);
+  }
+}
+
 class LossByGap : public Loss, public ::testing::WithParamInterface<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Fields, LossByGap, ::testing::Values(1, 2, 3, 4, 5, 6, 8, 12, 20, 60, 90));
@@ -229,6 +247,24 @@ TEST_F(Loss, IsLostWhenTimeRunsBackwards) {
   EXPECT_EQ(state(), TrackState::kLost);
   EXPECT_EQ(reason(), Reason::kTime);
   expect_stays_lost(kOverTube);
+}
+
+TEST_F(Loss, IsLostWhenSequenceNumbersAreMissingThatTheClockDoesNotShow) {
+  run_.sequence += 60;
+
+  run_.step(kOverTube);
+
+  EXPECT_EQ(state(), TrackState::kLost);
+  EXPECT_EQ(reason(), Reason::kGap);
+}
+
+TEST_F(Loss, IsLostWhenSequenceNumbersRunBackwards) {
+  run_.sequence -= 4;
+
+  run_.step(kOverTube);
+
+  EXPECT_EQ(state(), TrackState::kLost);
+  EXPECT_EQ(reason(), Reason::kTime);
 }
 
 TEST_F(Loss, IsLostAfterALeapOfTheClock) {

@@ -67,6 +67,25 @@ TEST_F(SessionOf, RefusesAStartOnAPictureThatShowsOtherTubeEndsElsewhere) {
   EXPECT_EQ(only_reply().refusal, StartRefusal::kPicture);
 }
 
+TEST_F(SessionOf, RefusesAStartThatOneClickContradictsHoweverFarApart) {
+  // A step wrong on one of three far clicks changes the similarity by little.
+  for (const int wrong : {0, 1, 2}) {
+    for (const TubeAddress error : {TubeAddress{1, 0}, {0, -1}}) {
+      tests::set_clicks(*run_.sheet, kOverTube, {{21, 10}, {19, 8}, {23, 12}}, {3.0, -2.0},
+                        *run_.settings);
+      Event event;
+      event.kind = EventKind::kStart;
+      event.start = run_.settings->start.tubes;
+      event.start[wrong].address.row += error.row;
+      event.start[wrong].address.column += error.column;
+      run_.add(event);
+      run_.step(kOverTube);
+      EXPECT_EQ(only_reply().verdict, Verdict::kRefused) << wrong;
+      EXPECT_EQ(run_.sighting().state, TrackState::kWaiting) << wrong;
+    }
+  }
+}
+
 TEST_F(SessionOf, RefusesAStartInADamagedOrBlackField) {
   run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
   run_.status = FieldStatus::kDamaged;

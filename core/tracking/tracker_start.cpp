@@ -1,0 +1,81 @@
+#include "core/base/instantiate.h"
+#include "core/tracking/plane_length.h"
+#include "core/tracking/projection.h"
+#include "core/tracking/tracker.h"
+
+// How a tracker begins; following the sheet is in tracker.cpp.
+namespace tubesight::core::tracking {
+
+template <Scalar S>
+void Tracker<S>::start(const Field& field) {
+  state_ = TrackState::kWaiting;
+  reason_ = Reason::kStartRefused;
+  primary_known_ = false;
+  motion_ = {};
+  contradictions_ = 0;
+  per_sequence_ns_ = 0;
+  usual_numbers_ = 0;
+  record_.plugs.clear();
+  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
+  record_.light.region_threshold = model_->region_threshold;
+  if (field.status != FieldStatus::kGood) {
+    start_refusal_ = StartRefusal::kPicture;
+    return;
+  }
+  SheetPose<S> pose;
+  start_refusal_ = find_start_pose<S>(*model_, *map_, field.pixels, clicks_, record_.light, pose);
+  if (start_refusal_ != StartRefusal::kNone) {
+    return;
+  }
+  // The rough pose of three bisected tube-ends is refined on the whole window until it settles.
+  Outcome outcome;
+  outcome.pose = pose;
+  for (int round = 0; round < 4; ++round) {
+    outcome = observe(field.pixels, outcome.pose, from_scaled<Mm<S>>(2, 0), round == 3);
+    if (!outcome.fitted) {
+      break;
+    }
+  }
+  if (!outcome.fitted || outcome.contradiction || outcome.fit.used < 3) {
+    start_refusal_ = StartRefusal::kPicture;
+    record_.begin_field();  // addresses that were refuted are not told
+    return;
+  }
+  if (!confirms_clicks(outcome)) {
+    start_refusal_ = StartRefusal::kAddresses;
+    record_.begin_field();
+    return;
+  }
+  accept(outcome, field, Unit<S>{});
+}
+
+// Each click must lie within the bore of the very tube that it was given the address of, and the
+// window's tube-ends must lie on the fitted plane: clicks far apart would let one wrong address
+// pass as a bad fit of three.
+template <Scalar S>
+bool Tracker<S>::confirms_clicks(const Outcome& outcome) const {
+  if (outcome.fit.rms_px > Px<S>(1)) {
+    return false;
+  }
+  for (const StartClick& click : clicks_) {
+    const auto at =
+        to_sheet<S>(*model_, outcome.pose,
+                    {from_scaled<Px<S>>(click.u_q16, 16), from_scaled<Px<S>>(click.v_q16, 16)});
+    if (!at) {
+      return false;
+    }
+    const auto off = *at - model_->lattice.offset(outcome.pose.anchor, click.address);
+    if (plane_length(off) > model_->bore_radius_mm) {
+      return false;
+    }
+  }
+  return true;
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                 \
+  template void Tracker<S>::start(const Field&); \
+  template bool Tracker<S>::confirms_clicks(const Outcome&) const;
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking
