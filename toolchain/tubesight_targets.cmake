@@ -5,11 +5,12 @@
 #                         HEADERS a.h b.h        # all headers, relative to the folder (FILE_SET)
 #                         LINKS tubesight::...   # what the headers need too (PUBLIC)
 #                         PRIVATE_LINKS ...      # what only the sources need
-#                         [TRACKING_PATH])       # no heap, no throw, frames <= 4096 bytes
+#                         [TRACKING_PATH]        # no heap, no throw, frames <= 4096 bytes
+#                         [NO_HEAP])             # no heap, no throw
 #
 #     A static library, or an interface library when SOURCES is left out. Folders under core/, hal/
 #     and drivers/ are compiled without exceptions and RTTI. TRACKING_PATH also registers the folder
-#     with the checks `symbols`, `no_float` and `stack` (tests/checks/).
+#     with the checks `symbols`, `no_float` and `stack` (tests/checks/), NO_HEAP with `symbols` alone.
 #
 #   tubesight_add_program(<name> SOURCES ... [HEADERS ...] LINKS ...)
 #
@@ -32,6 +33,8 @@ define_property(GLOBAL PROPERTY TUBESIGHT_TRACKING_PATH_TARGETS
   BRIEF_DOCS "Libraries that lie on the path field -> sighting -> reply")
 define_property(GLOBAL PROPERTY TUBESIGHT_TRACKING_PATH_SOURCES
   BRIEF_DOCS "Absolute names of the sources of those libraries")
+define_property(GLOBAL PROPERTY TUBESIGHT_NO_HEAP_TARGETS
+  BRIEF_DOCS "Further libraries that may not ask for memory")
 define_property(GLOBAL PROPERTY TUBESIGHT_TEST_SOURCES
   BRIEF_DOCS "Absolute names of the sources known to ctest")
 
@@ -67,7 +70,8 @@ if(CMAKE_BUILD_TYPE MATCHES "^Rel" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 function(tubesight_add_library path)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "TRACKING_PATH" "" "SOURCES;HEADERS;LINKS;PRIVATE_LINKS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TRACKING_PATH;NO_HEAP" ""
+    "SOURCES;HEADERS;LINKS;PRIVATE_LINKS")
   if(DEFINED arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tubesight_add_library(${path}): unknown '${arg_UNPARSED_ARGUMENTS}'")
   endif()
@@ -94,6 +98,9 @@ function(tubesight_add_library path)
       FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
   endif()
 
+  if(arg_NO_HEAP AND arg_SOURCES)
+    set_property(GLOBAL APPEND PROPERTY TUBESIGHT_NO_HEAP_TARGETS ${target})
+  endif()
   if(arg_TRACKING_PATH)
     # A library of headers only has no object to scan.
     if(arg_SOURCES)

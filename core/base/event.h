@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/pose_result.h"
 #include "core/base/settings.h"
 #include "core/base/static_vector.h"
 #include "core/base/tube_address.h"
@@ -17,6 +18,7 @@ enum class EventKind : std::uint8_t {
   kPoseRequest,  ///< the robot asks for its pose
   kPick,         ///< the operator points at a place of the picture
   kAcknowledge,  ///< the operator has seen a message
+  kPoseResult,   ///< what became of a pose request, from whoever computed it
 };
 
 /// One event; only the members of its kind are valid.
@@ -26,6 +28,7 @@ struct Event {
   StaticVector<StartPoint, kMaxStartPoints> start;  ///< kStart
   std::array<double, 2> pick_px{};                  ///< kPick
   std::int32_t lamp_permille = 0;                   ///< kLampCommand, 0..1000
+  PoseResult pose;                                  ///< kPoseResult
 };
 
 /// Events that one step takes: at 115,200 baud a link brings fewer than ten requests a field.

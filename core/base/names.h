@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/base/field.h"
+#include "core/base/pose_result.h"
 #include "core/base/sighting.h"
 
 namespace tubesight::core {
@@ -46,6 +47,20 @@ namespace tubesight::core {
     case Reason::kGap: return "gap";
     case Reason::kTime: return "time";
     case Reason::kArithmetic: return "arithmetic";
+  }
+  return "";
+}
+
+/// The one word of a pose request's refusal in files; empty for kNone.
+[[nodiscard]] constexpr std::string_view name_of(PoseReason reason) {
+  switch (reason) {
+    case PoseReason::kNone: return "";
+    case PoseReason::kNotTracking: return "not-tracking";
+    case PoseReason::kMoving: return "moving";
+    case PoseReason::kBusy: return "busy";
+    case PoseReason::kPicture: return "picture";
+    case PoseReason::kWeak: return "weak";
+    case PoseReason::kEnded: return "ended";
   }
   return "";
 }
