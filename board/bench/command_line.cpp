@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/pose_command.h"
+#include "board/bench/pose_options.h"
 #include "board/bench/replay_command.h"
 #include "board/bench/replay_options.h"
 
@@ -43,12 +45,80 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options, std::string& scalar)
       ->add_flag("--overlay-estimates", options.overlay_estimates,
                  "Draw where every tube is expected, too")
       ->needs(overlay);
+  replay->add_option("--poses", options.poses, "Write one row a pose request, as pose --csv does")
+      ->option_text("P.csv");
   replay
       ->add_option("--scalar", scalar,
                    "Arithmetic of the tracking: fixed (default), float or double")
       ->option_text("NAME")
       ->check(CLI::IsMember({"fixed", "float", "double"}));
   return replay;
+}
+
+const std::map<std::string, core::pose::PoseMethod> kPoseMethods = {
+    {"rims", core::pose::PoseMethod::kRims},
+    {"centers", core::pose::PoseMethod::kCenters},
+    {"tangent-points", core::pose::PoseMethod::kTangentPoints},
+    {"tangent-lines", core::pose::PoseMethod::kTangentLines},
+    {"ellipse-centers", core::pose::PoseMethod::kEllipseCenters},
+};
+
+const std::map<std::string, core::pose::EdgeMethod> kEdgeMethods = {
+    {"step", core::pose::EdgeMethod::kBlurredStep},
+    {"mid-level", core::pose::EdgeMethod::kMidLevel},
+    {"moment", core::pose::EdgeMethod::kMoment},
+};
+
+/// An option that takes one of the names of a table.
+template <typename Value>
+void add_choice(CLI::App& command, const std::string& name, const char* text,
+                const std::map<std::string, Value>& table, Value& value) {
+  command
+      .add_option_function<std::string>(
+          name, [&table, &value](const std::string& word) { value = table.at(word); }, text)
+      ->option_text("NAME")
+      ->check(CLI::IsMember(table));
+}
+
+CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
+  CLI::App* const pose =
+      app.add_subcommand("pose", "The tool's pose from a still at rest, or from several averaged");
+  pose->add_option(
+          "SESSION.toml", options.session,
+          "Settings of the session: camera, tubesheet, and tool for the tool's pose (TOML)")
+      ->required();
+  pose->add_option("IMAGE", options.images, "Stills: 8-bit grey PNG or PGM")->required();
+  pose->add_option("--start", options.start,
+                   "Tube-ends by row, column and a place in their dark, px; default: [start]")
+      ->option_text("\"R,C,U,V;...\"");
+  pose->add_flag("--only-start", options.only_start, "Use the tube-ends named and no others");
+  pose->add_flag("--average", options.average, "Average all stills, up to 32, to one pose");
+  pose->add_option("--csv", options.csv, "Write one row a pose")->option_text("P.csv");
+  pose->add_option("--covariance", options.covariance, "Write the covariance, one row a pose")
+      ->option_text("V.csv");
+  pose->add_flag("--total", options.total,
+                 "Add to the uncertainties what the calibrations leave uncertain");
+  pose->add_option("--overlay", options.overlay,
+                   "Write the picture with the fitted rims, edge points and centres")
+      ->option_text("OUT.png");
+  CLI::Option* const correct =
+      pose->add_option("--correct", options.correct,
+                       "Tell the move in the tool's frame that brings the tip under this tube")
+          ->option_text("ROW,COLUMN");
+  pose->add_option("--limit-mm", options.limit_mm,
+                   "With --correct: the offset at which the insertion works; default 2.5")
+      ->option_text("L")
+      ->check(CLI::Range(0.001, 100.0))
+      ->needs(correct);
+  add_choice(*pose, "--method",
+             "How the pose is fitted, for comparison: rims (default), centers, "
+             "tangent-points, tangent-lines or ellipse-centers",
+             kPoseMethods, options.method);
+  add_choice(*pose, "--edge",
+             "How an edge is placed, for comparison: step (default), mid-level or "
+             "moment",
+             kEdgeMethods, options.edge);
+  return pose;
 }
 
 /// Help and version, or one line about what is wrong.
@@ -71,10 +141,15 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   ReplayOptions options;
   std::string scalar = "fixed";
   const CLI::App* const replay = add_replay(app, options, scalar);
+  PoseCommandOptions pose_options;
+  const CLI::App* const pose = add_pose(app, pose_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return answer(app, problem);
+  }
+  if (pose->parsed()) {
+    return run_pose(pose_options);
   }
   options.scalar = kScalars.at(scalar);
   return replay->parsed() ? run_replay(options) : ExitStatus::kWrongInput;

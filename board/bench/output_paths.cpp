@@ -2,8 +2,8 @@
 
 #include <array>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "drivers/replay/companion.h"
 
@@ -11,11 +11,6 @@ namespace tubesight::board {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedPath {
-  std::string_view name;
-  std::string path;
-};
 
 /// Where a path leads, links resolved as far as it exists; empty for what may be shared.
 std::string place_of(const std::string& path) {
@@ -32,6 +27,30 @@ std::string place_of(const std::string& path) {
 }
 
 }  // namespace
+
+std::string find_clash(std::span<const NamedPath> inputs, std::span<const NamedPath> outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const std::string place = place_of(outputs[i].path);
+    if (place.empty()) {
+      continue;
+    }
+    const auto clash = [&](const NamedPath& other) {
+      return outputs[i].name + ": '" + outputs[i].path + "' is also " + other.name +
+             ", expected a place of its own";
+    };
+    for (const NamedPath& input : inputs) {
+      if (place == place_of(input.path)) {
+        return clash(input);
+      }
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (place == place_of(outputs[k].path)) {
+        return clash(outputs[k]);
+      }
+    }
+  }
+  return {};
+}
 
 std::string find_output_conflict(const ReplayOptions& options) {
   if (options.overlay.ends_with(".y4m.xz")) {
@@ -50,28 +69,22 @@ std::string find_output_conflict(const ReplayOptions& options) {
       NamedPath{"--fields", options.fields},
       NamedPath{"--centers", options.centers},
       NamedPath{"--overlay", options.overlay},
+      NamedPath{"--poses", options.poses},
   };
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const std::string place = place_of(outputs[i].path);
-    if (place.empty()) {
-      continue;
-    }
-    const auto clash = [&](const NamedPath& other) {
-      return std::string(outputs[i].name) + ": '" + outputs[i].path + "' is also " +
-             std::string(other.name) + ", expected a place of its own";
-    };
-    for (const NamedPath& input : inputs) {
-      if (place == place_of(input.path)) {
-        return clash(input);
-      }
-    }
-    for (std::size_t k = 0; k < i; ++k) {
-      if (place == place_of(outputs[k].path)) {
-        return clash(outputs[k]);
-      }
-    }
+  return find_clash(inputs, outputs);
+}
+
+std::string find_output_conflict(const PoseCommandOptions& options) {
+  std::vector<NamedPath> inputs = {{"the session", options.session}};
+  for (const std::string& image : options.images) {
+    inputs.push_back({"a picture", image});
   }
-  return {};
+  const std::array outputs = {
+      NamedPath{"--csv", options.csv},
+      NamedPath{"--covariance", options.covariance},
+      NamedPath{"--overlay", options.overlay},
+  };
+  return find_clash(inputs, outputs);
 }
 
 }  // namespace tubesight::board

@@ -3,14 +3,18 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "board/bench/output_paths.h"
 #include "board/bench/overlay_sink.h"
+#include "board/bench/pose_rows.h"
+#include "board/bench/pose_service.h"
 #include "board/bench/progress_line.h"
 #include "board/bench/replay_job.h"
 #include "board/bench/replay_statistics.h"
 #include "board/bench/result_files.h"
 #include "board/bench/summary_text.h"
+#include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
 #include "drivers/replay/companion.h"
 #include "drivers/replay/replay_events.h"
@@ -45,6 +49,7 @@ class Replay {
       return end.status;
     }
     tell_events_left();
+    tell_request_left();
     if (!commit()) {
       return ExitStatus::kJobFailed;
     }
@@ -77,6 +82,12 @@ class Replay {
       tell(results_.message());
       return false;
     }
+    if (!options_.poses.empty() &&
+        (!poses_file_.open(options_.poses) ||
+         !poses_file_.write(std::string_view(std::string(kPoseHeader) + '\n')))) {
+      tell(poses_file_.message());
+      return false;
+    }
     if (!options_.overlay.empty()) {
       overlay_ = make_overlay_sink(options_.overlay);
       if (!overlay_->open(grabber_->header(), grabber_->interlaced())) {
@@ -89,8 +100,9 @@ class Replay {
 
   ReplayEnd replay() {
     const ReplayInputs inputs{options_.session, session_file_->settings, *grabber_, events_};
-    const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates, statistics_,
-                                progress_};
+    poses_.name_recording(options_.recording);
+    const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
+                                poses_,   statistics_,    progress_};
     switch (options_.scalar) {
       case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
       case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
@@ -107,6 +119,14 @@ class Replay {
     }
   }
 
+  void tell_request_left() {
+    if (poses_.unanswered() >= 0) {
+      tell(options_.recording + ": the pose request before field " +
+           std::to_string(poses_.unanswered()) +
+           " got no answer: the recording ended before it was ready");
+    }
+  }
+
   bool commit() {
     if (overlay_ != nullptr && !overlay_->commit()) {
       tell(overlay_->message());
@@ -114,6 +134,11 @@ class Replay {
     }
     if (!results_.commit()) {
       tell(results_.message());
+      return false;
+    }
+    if (!options_.poses.empty() &&
+        (!poses_file_.write(std::string_view(poses_.rows())) || !poses_file_.commit())) {
+      tell(poses_file_.message());
       return false;
     }
     return true;
@@ -137,6 +162,8 @@ class Replay {
   drivers::ReplayEvents events_;
   ResultFiles results_;
   std::unique_ptr<OverlaySink> overlay_;
+  PoseService poses_;
+  drivers::AtomicFile poses_file_;
   ReplayStatistics statistics_;
   ProgressLine progress_;
 };

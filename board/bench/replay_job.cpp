@@ -36,7 +36,7 @@ class ReplayJob {
   }
 
   ReplayEnd run() {
-    if (const auto configured = session_.configure(in_.settings); !configured) {
+    if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
     while (true) {
@@ -56,7 +56,11 @@ class ReplayJob {
     input_.field = field;
     input_.lamp_permille = in_.grabber.lamp_permille().value_or(kFullLamp_permille);
     feed_.take_before(number, in_.events, input_.events);
+    hand_pose_result();
     session_.step(input_, output_);
+    if (!in_.events.has_pose_results()) {
+      out_.poses.take(field, number, output_.order);
+    }
     out_.statistics.add(input_.events, output_);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
@@ -73,6 +77,15 @@ class ReplayJob {
       }
     }
     return {};
+  }
+
+  /// The pose that was computed since the last field; what finds no room waits.
+  void hand_pose_result() {
+    if (!input_.events.full()) {
+      if (const auto result = out_.poses.take_result()) {
+        static_cast<void>(input_.events.try_push_back(*result));
+      }
+    }
   }
 
   ReplayEnd ended(Error why) {

@@ -5,6 +5,7 @@
 #include "board/bench/event_feed.h"
 #include "board/bench/exit_status.h"
 #include "board/bench/overlay_sink.h"
+#include "board/bench/pose_service.h"
 #include "board/bench/progress_line.h"
 #include "board/bench/replay_statistics.h"
 #include "board/bench/result_files.h"
@@ -29,6 +30,7 @@ struct ReplayOutputs {
   ResultFiles& results;
   OverlaySink* overlay;  ///< null: none wanted
   bool overlay_estimates;
+  PoseService& poses;
   ReplayStatistics& statistics;
   ProgressLine& progress;
 };

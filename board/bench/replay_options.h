@@ -15,6 +15,7 @@ struct ReplayOptions {
   std::string fields;
   std::string centers;
   std::string overlay;
+  std::string poses;
   bool overlay_estimates = false;
   ScalarChoice scalar = ScalarChoice::kFixed;
 };

@@ -94,8 +94,15 @@ void ReplayStatistics::take_reply(const core::Event& event, const core::session:
     case EventKind::kPick:
       ++(reply.verdict == Verdict::kConfirmed ? picks_named_ : picks_unknown_);
       break;
-    case EventKind::kLampCommand:
     case EventKind::kPoseRequest:
+      if (reply.verdict == Verdict::kRefused) {
+        poses_.push_back({time, reply.pose, false});
+      }
+      break;
+    case EventKind::kPoseResult:
+      poses_.push_back({time, reply.pose, reply.verdict == Verdict::kContradicted});
+      break;
+    case EventKind::kLampCommand:
     case EventKind::kAcknowledge: break;
   }
 }

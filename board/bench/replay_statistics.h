@@ -9,6 +9,7 @@
 #include "board/bench/visit_log.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
+#include "core/base/pose_result.h"
 #include "core/base/sighting.h"
 #include "core/base/tube_address.h"
 #include "core/session/session.h"
@@ -82,6 +83,13 @@ class ReplayStatistics {
   [[nodiscard]] const std::vector<Contradiction>& contradictions() const { return contradictions_; }
   [[nodiscard]] std::int64_t picks_named() const { return picks_named_; }
   [[nodiscard]] std::int64_t picks_unknown() const { return picks_unknown_; }
+  /// What became of a pose request: answered, or refused with its reason.
+  struct Pose {
+    core::FieldTime at{0};
+    core::PoseResult result;
+    bool contradicted = false;  ///< under another tube than the tracker sees
+  };
+  [[nodiscard]] const std::vector<Pose>& poses() const { return poses_; }
   [[nodiscard]] std::int64_t not_served() const { return not_served_; }
 
  private:
@@ -108,6 +116,7 @@ class ReplayStatistics {
   std::vector<Contradiction> contradictions_;
   std::int64_t picks_named_ = 0;
   std::int64_t picks_unknown_ = 0;
+  std::vector<Pose> poses_;
   std::int64_t not_served_ = 0;
 };
 

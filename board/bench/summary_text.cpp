@@ -114,6 +114,30 @@ void print_claims(std::string& out, const ReplayStatistics& statistics) {
   }
 }
 
+void print_poses(std::string& out, const ReplayStatistics& statistics) {
+  constexpr double kNano = 1e-9;
+  constexpr double kNanometre = 1e-6;
+  for (const auto& pose : statistics.poses()) {
+    const core::PoseResult& r = pose.result;
+    if (r.reason != core::PoseReason::kNone) {
+      print(out, "  pose at %.3f s refused: %s: %s\n", seconds(pose.at),
+            c_str(core::name_of(r.reason)), c_str(explain(r.reason)));
+      continue;
+    }
+    const auto mm = [&](std::int64_t nanometres) {
+      return kNanometre * static_cast<double>(nanometres);
+    };
+    const auto degrees = [&](std::int64_t ndeg) { return kNano * static_cast<double>(ndeg); };
+    print(out,
+          "  pose at %.3f s: x %.4f y %.4f z %.4f mm, alpha %.4f beta %.4f gamma %.4f deg, %.4f mm "
+          "off row %d column %d%s\n",
+          seconds(pose.at), mm(r.position_nm[0]), mm(r.position_nm[1]), mm(r.position_nm[2]),
+          degrees(r.angles_ndeg[0]), degrees(r.angles_ndeg[1]), degrees(r.angles_ndeg[2]),
+          mm(r.offset_nm), r.nearest.row, r.nearest.column,
+          pose.contradicted ? ", which the tracking contradicts" : "");
+  }
+}
+
 void print_measuring(std::string& out, const ReplayStatistics& statistics) {
   const std::int64_t answered = statistics.state(TrackState::kTracking).fields +
                                 statistics.state(TrackState::kDegraded).fields;
@@ -184,6 +208,7 @@ std::string summary_text(const RecordingFacts& recording, const ReplayStatistics
   print_losses(out, statistics);
   print_starts(out, statistics);
   print_claims(out, statistics);
+  print_poses(out, statistics);
   print_measuring(out, statistics);
   print_passed(out, statistics);
   print_visits(out, statistics);

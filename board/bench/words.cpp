@@ -26,6 +26,20 @@ std::string_view explain(Reason reason) {
   return "";
 }
 
+std::string_view explain(core::PoseReason reason) {
+  using core::PoseReason;
+  switch (reason) {
+    case PoseReason::kNone: return "";
+    case PoseReason::kNotTracking: return "the box does not know which tubes it sees";
+    case PoseReason::kMoving: return "the tool moves";
+    case PoseReason::kBusy: return "the request before is not answered yet";
+    case PoseReason::kPicture: return "the picture shows too few sound tube-ends";
+    case PoseReason::kWeak: return "the tube-ends measured don't determine the pose";
+    case PoseReason::kEnded: return "the pictures ended before there were enough";
+  }
+  return "";
+}
+
 std::string_view name_of(StartRefusal refusal) {
   switch (refusal) {
     case StartRefusal::kNone: return "";

@@ -4,6 +4,7 @@
 
 #include "core/base/event.h"
 #include "core/base/field.h"
+#include "core/base/pose_result.h"
 #include "core/base/result.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
@@ -23,17 +24,19 @@ struct Input {
 struct Reply {
   /// How the event was answered.
   enum class Verdict : std::uint8_t {
-    kConfirmed,     ///< claim: the box vouches for that tube; pick: `tube` stands there
-    kContradicted,  ///< claim: the box vouches for `tube` instead
+    kConfirmed,     ///< claim: the box vouches for that tube; pick: `tube` stands there;
+                    ///< pose result: `pose` is under the tube that the box sees
+    kContradicted,  ///< claim: the box vouches for `tube` instead; pose result: the box sees `tube`
     kUnknown,       ///< the box cannot tell
-    kTaken,         ///< start: tracking began
-    kRefused,       ///< start: see `refusal`
+    kTaken,         ///< start: tracking began; pose request: see `Output::order`
+    kRefused,       ///< start: see `refusal`; pose request and pose result: see `pose.reason`
     kNotServed,     ///< this build has nobody to answer that kind of event
   };
   EventKind kind = EventKind::kClaim;
   Verdict verdict = Verdict::kUnknown;
   TubeAddress tube{};
   tracking::StartRefusal refusal = tracking::StartRefusal::kNone;
+  PoseResult pose{};
 };
 
 using ReplyList = StaticVector<Reply, kMaxEventsPerField>;
@@ -44,7 +47,12 @@ struct Output {
   tracking::TubeSightingList tubes;   ///< measured tube-ends and recognised plugs
   ReplyList replies;                  ///< one for each event, in order
   std::int32_t lamp_permille = 1000;  ///< level wanted
+  PoseOrder order;                    ///< a pose to compute, from this field's picture on
 };
+
+/// Fields that a pose request waits for its result; then another one is taken. Ten seconds of 60
+/// fields: averaging and fitting take well below one.
+inline constexpr std::int32_t kPoseRequestLasts = 600;
 
 /// The vision box without its ports: fields and events in, answers out.
 ///
@@ -63,6 +71,10 @@ class Session {
   [[nodiscard]] Result<void> configure(const SessionSettings& settings);
 
   /// Processes one field with the events before it. Start events take effect in this field.
+  ///
+  /// A pose request that is taken leaves an order in the output; whoever computes poses hands the
+  /// result to a later step as an event, so that step() never waits and a recording with its events
+  /// replays exactly.
   void step(const Input& input, Output& output);
 
   /// The tracker, for estimates and places of tubes in the last field's picture.
@@ -76,7 +88,10 @@ class Session {
  private:
   tracking::TrackingModel<S> model_{};
   tubesheet::SheetMap map_{};
+  [[nodiscard]] Reply answer_pose_request(Output& output);
+
   tracking::Tracker<S> tracker_;
+  std::int32_t pose_awaited_ = 0;  ///< fields that the pending pose request has left
 };
 
 }  // namespace tubesight::core::session

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/names.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
 #include "drivers/replay/companion.h"
@@ -32,6 +33,9 @@ constexpr std::array kKinds = {
     Kind{"pose", EventKind::kPoseRequest, "nothing"},
     Kind{"pick", EventKind::kPick, "U,V (pixels)"},
     Kind{"acknowledge", EventKind::kAcknowledge, "nothing"},
+    Kind{"pose-result", EventKind::kPoseResult,
+         "16 numbers (tubes, row, column, x, y, z mm, alpha, beta, gamma deg, their sigmas, offset "
+         "mm) or a reason"},
 };
 static_assert(core::kMaxStartPoints == 8);
 
@@ -82,6 +86,42 @@ bool parse_start(std::string_view text, Event& event) {
   return event.start.size() >= kFewest;
 }
 
+bool parse_pose_reason(std::string_view text, core::PoseReason& reason) {
+  for (auto value = core::PoseReason::kNotTracking; value <= core::PoseReason::kEnded;
+       value = static_cast<core::PoseReason>(static_cast<int>(value) + 1)) {
+    if (text == core::name_of(value)) {
+      reason = value;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A pose as the event recorder writes it: every number exactly.
+bool parse_pose_result(std::string_view text, core::PoseResult& pose) {
+  if (parse_pose_reason(text, pose.reason)) {
+    return true;
+  }
+  constexpr std::int32_t kNanometres = 6;   // decimals of a millimetre
+  constexpr std::int32_t kNanodegrees = 9;  // decimals of a degree
+  std::array<std::string_view, 16> parts;
+  if (!split(text, ',', parts) || !parse_whole(parts[0], pose.tubes) ||
+      !parse_whole(parts[1], pose.nearest.row) || !parse_whole(parts[2], pose.nearest.column) ||
+      !parse_decimal(parts[15], kNanometres, pose.offset_nm)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!parse_decimal(parts[3 + i], kNanometres, pose.position_nm[i]) ||
+        !parse_decimal(parts[6 + i], kNanodegrees, pose.angles_ndeg[i]) ||
+        !parse_decimal(parts[9 + i], kNanometres, pose.position_sigma_nm[i]) ||
+        !parse_decimal(parts[12 + i], kNanodegrees, pose.angle_sigma_ndeg[i])) {
+      return false;
+    }
+  }
+  pose.reason = core::PoseReason::kNone;
+  return true;
+}
+
 bool parse_values(std::string_view text, Event& event) {
   std::array<std::string_view, 2> pair;
   switch (event.kind) {
@@ -95,6 +135,7 @@ bool parse_values(std::string_view text, Event& event) {
     case EventKind::kPick:
       return split(text, ',', pair) && parse_px(pair[0], event.pick_px[0]) &&
              parse_px(pair[1], event.pick_px[1]);
+    case EventKind::kPoseResult: return parse_pose_result(text, event.pose);
     case EventKind::kPoseRequest:
     case EventKind::kAcknowledge: return text.empty();
   }
@@ -141,7 +182,7 @@ bool parse_row(const CsvReader& csv, std::int64_t& field, Event& event, Messages
     kind = candidate.word == cells[2] ? &candidate : kind;
   }
   if (kind == nullptr) {
-    complain("kind", cells[2], "claim, start, lamp, pose, pick or acknowledge");
+    complain("kind", cells[2], "claim, start, lamp, pose, pick, acknowledge or pose-result");
     return false;
   }
   event.kind = kind->kind;
@@ -157,6 +198,7 @@ bool parse_row(const CsvReader& csv, std::int64_t& field, Event& event, Messages
 Result<void> ReplayEvents::load_beside(std::string_view recording, Messages& messages) {
   rows_.clear();
   taken_ = 0;
+  has_pose_results_ = false;
   const std::string path = companion_path(recording, ".events.csv");
   std::string text;
   const auto present = read_companion(path, text, messages);
@@ -170,6 +212,7 @@ Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
                                  Messages& messages) {
   rows_.clear();
   taken_ = 0;
+  has_pose_results_ = false;
   Messages found;
   CsvReader csv(text, name);
   std::int32_t in_field = 0;
@@ -193,6 +236,7 @@ Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
         continue;
       }
       rows_.push_back(row);
+      has_pose_results_ = has_pose_results_ || row.event.kind == EventKind::kPoseResult;
     }
   }
   messages.insert(messages.end(), found.begin(), found.end());

@@ -31,6 +31,9 @@ class ReplayEvents {
   /// turn. Allocates nothing.
   void take_before(std::int64_t field, core::EventList& events);
 
+  /// Whether the file tells what became of pose requests: then they are not computed again.
+  [[nodiscard]] bool has_pose_results() const { return has_pose_results_; }
+
   /// Rows in the file.
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
 
@@ -45,6 +48,7 @@ class ReplayEvents {
 
   std::vector<Row> rows_;
   std::size_t taken_ = 0;
+  bool has_pose_results_ = false;
 };
 
 }  // namespace tubesight::drivers

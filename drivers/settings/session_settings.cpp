@@ -75,9 +75,9 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
   read(document, "verification", false,
        [&](TableReader& table) { read_verification(table, to.verification); });
   read(document, "camera_quality", false,
-       [&](TableReader& table) { read_quality(table, session.camera_id); });
+       [&](TableReader& table) { read_quality(table, session.camera_quality); });
   read(document, "tool_quality", false,
-       [&](TableReader& table) { read_quality(table, session.tool_id); });
+       [&](TableReader& table) { read_quality(table, session.tool_quality); });
   read(document, "base", false, [&](TableReader& table) { read_base(table); });
 }
 
@@ -100,8 +100,8 @@ Result<void> load_session_settings(TextFiles& files, const std::string& path, Ne
   session.settings.motion = {};
   session.settings.edges = {};
   session.settings.verification = {};
-  session.camera_id.clear();
-  session.tool_id.clear();
+  session.camera_quality = {};
+  session.tool_quality = {};
   SettingsDocument document;
   document.load(files, path, kTables);
   read_all(document, needed, session);

@@ -5,6 +5,7 @@
 #include "core/base/result.h"
 #include "core/base/settings.h"
 #include "drivers/files/messages.h"
+#include "drivers/settings/session_tables.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
@@ -29,8 +30,8 @@ struct SessionFile {
   core::SessionSettings settings;
   bool has_tool = false;
   bool has_start = false;  ///< without it the window is the whole picture
-  std::string camera_id;   ///< `id` of [camera_quality], empty when there is none
-  std::string tool_id;     ///< `id` of [tool_quality]
+  CalibrationQuality camera_quality;
+  CalibrationQuality tool_quality;
 };
 
 /// Reads a session's settings from `path` and the files that it includes.

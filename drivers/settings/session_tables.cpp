@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -38,6 +40,35 @@ constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(),
 constexpr std::array<std::string_view, 3> kScanWords = {"even-first", "odd-first", "progressive"};
 constexpr std::array<std::string_view, 2> kWeldWords = {"flush", "fillet"};
 constexpr std::array<std::string_view, 3> kAddressWords = {"all", "even-sum", "odd-sum"};
+
+/// Takes a list over when it holds just as many finite numbers.
+bool take_numbers(const toml::array* list, std::span<double> values) {
+  if (list == nullptr || list->size() != values.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto number = (*list)[i].value<double>();
+    if (!number || !std::isfinite(*number)) {
+      return false;
+    }
+    values[i] = *number;
+  }
+  return true;
+}
+
+/// Takes a list of six lists of six numbers over; else `values` is left as it is.
+void take_matrix(const toml::array* list, std::array<double, 36>& values) {
+  if (list == nullptr || list->size() != 6) {
+    return;
+  }
+  std::array<double, 36> read{};
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!take_numbers((*list)[i].as_array(), std::span(read).subspan(6 * i, 6))) {
+      return;
+    }
+  }
+  values = read;
+}
 
 /// Reads an optional word; absent, the first of `words` holds. T's enumerators stand in their
 /// order.
@@ -294,10 +325,23 @@ void read_verification(TableReader& table, core::VerificationSettings& verificat
   optional_number(table, "aligned_within_mm", kGate, verification.aligned_within_mm);
 }
 
-void read_quality(TableReader& table, std::string& id) {
-  table.text("id", id);
+void read_quality(TableReader& table, CalibrationQuality& quality) {
+  table.text("id", quality.id);
   for (const std::string_view key : {"made_at", "sigma", "correlation", "verdict"}) {
     table.ignore(key);
+  }
+  if (table.has("sigma")) {
+    const auto not_below_zero = [](double value) { return value >= 0.0; };
+    quality.has_sigma =
+        take_numbers(table.list("sigma", false, "a list of numbers"), quality.sigma) &&
+        std::all_of(quality.sigma.begin(), quality.sigma.end(), not_below_zero);
+  }
+  quality.correlation = {};
+  for (std::size_t i = 0; i < quality.sigma.size(); ++i) {
+    quality.correlation[7 * i] = 1.0;
+  }
+  if (table.has("correlation")) {
+    take_matrix(table.list("correlation", false, "a list of lists"), quality.correlation);
   }
 }
 

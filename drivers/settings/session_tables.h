@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "core/base/settings.h"
@@ -32,8 +33,20 @@ void read_motion(TableReader& table, core::MotionSettings& motion);
 void read_edges(TableReader& table, core::EdgeSettings& edges);
 void read_verification(TableReader& table, core::VerificationSettings& verification);
 
-/// `[camera_quality]`, `[tool_quality]`: what a calibration wrote; of it `id` is kept.
-void read_quality(TableReader& table, std::string& id);
+/// What a calibration says of itself: `[camera_quality]` or `[tool_quality]`.
+struct CalibrationQuality {
+  std::string id;          ///< empty when there is no table
+  bool has_sigma = false;  ///< `sigma` is there as six numbers, none below zero
+  /// One standard deviation each: of focal_length_mm, horizontal_scale, center_px (2),
+  /// distortion_per_mm2, distortion2_per_mm4; or of position_mm (3), rotation_deg (3).
+  std::array<double, 6> sigma{};
+  /// Row by row; the identity unless `correlation` is there as six lists of six numbers.
+  std::array<double, 36> correlation{};
+};
+
+/// `[camera_quality]`, `[tool_quality]`: `id` must be there, the rest is taken where it has the
+/// form above and else left out.
+void read_quality(TableReader& table, CalibrationQuality& quality);
 
 /// `[base]`: T_sheet_base, checked only.
 void read_base(TableReader& table);

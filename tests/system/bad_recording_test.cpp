@@ -161,8 +161,8 @@ TEST(Replay, RefusesAnEventOfUnknownKind) {
   folder.write("r.events.csv", "field,time_s,kind,values\n2,,shout,\n");
 
   expect_refused(folder, "r.y4m",
-                 "r.events.csv:2: kind: 'shout', expected claim, start, lamp, pose, pick or "
-                 "acknowledge");
+                 "r.events.csv:2: kind: 'shout', expected claim, start, lamp, pose, pick, "
+                 "acknowledge or pose-result");
 }
 
 TEST(Replay, RefusesAMetaFileWithoutARowForAField) {

@@ -148,7 +148,10 @@ TEST_F(ReplayStatisticsTest, CountTheAnswersOfEachKind) {
   event(EventKind::kClaim, Reply::Verdict::kUnknown, {1, 2});
   event(EventKind::kPick, Reply::Verdict::kConfirmed, {}, {1, 2});
   event(EventKind::kPick, Reply::Verdict::kUnknown);
-  event(EventKind::kPoseRequest, Reply::Verdict::kNotServed);
+  event(EventKind::kLampCommand, Reply::Verdict::kNotServed);
+  event(EventKind::kPoseRequest, Reply::Verdict::kTaken);
+  event(EventKind::kPoseRequest, Reply::Verdict::kRefused);
+  event(EventKind::kPoseResult, Reply::Verdict::kContradicted, {}, {1, 2});
   field(20, TrackState::kTracking);
   statistics_.finish();
 
@@ -162,6 +165,10 @@ TEST_F(ReplayStatisticsTest, CountTheAnswersOfEachKind) {
   EXPECT_EQ(statistics_.picks_named(), 1);
   EXPECT_EQ(statistics_.picks_unknown(), 1);
   EXPECT_EQ(statistics_.not_served(), 1);
+  // A request that is taken is told when its result comes.
+  ASSERT_EQ(statistics_.poses().size(), 2U);
+  EXPECT_FALSE(statistics_.poses()[0].contradicted);
+  EXPECT_TRUE(statistics_.poses()[1].contradicted);
 }
 
 }  // namespace

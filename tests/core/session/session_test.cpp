@@ -10,6 +10,21 @@ namespace {
 using Verdict = Reply::Verdict;
 using tracking::StartRefusal;
 
+Event pose_request() {
+  Event event;
+  event.kind = EventKind::kPoseRequest;
+  return event;
+}
+
+Event pose_result(TubeAddress nearest) {
+  Event event;
+  event.kind = EventKind::kPoseResult;
+  event.pose.reason = PoseReason::kNone;
+  event.pose.position_nm = {254'000'000, 508'000'000, -60'000'000};
+  event.pose.nearest = nearest;
+  return event;
+}
+
 class SessionOf : public ::testing::Test {
  protected:
   void SetUp() override { run_.configure(); }
@@ -187,10 +202,89 @@ TEST_F(SessionOf, AnswersEveryEventInOrder) {
   EXPECT_EQ(replies[2].kind, EventKind::kLampCommand);
   EXPECT_EQ(replies[3].kind, EventKind::kPoseRequest);
   EXPECT_EQ(replies[4].kind, EventKind::kAcknowledge);
-  for (std::int32_t i = 2; i < 5; ++i) {
-    EXPECT_EQ(replies[i].verdict, Verdict::kNotServed) << i;
-  }
+  EXPECT_EQ(replies[2].verdict, Verdict::kNotServed);
+  EXPECT_EQ(replies[3].verdict, Verdict::kTaken);
+  EXPECT_EQ(replies[4].verdict, Verdict::kNotServed);
   EXPECT_EQ(run_.output().lamp_permille, 700);
+}
+
+TEST_F(SessionOf, OrdersAPoseWithTheTubesThatItSees) {
+  run_.begin();
+  run_.add(pose_request());
+  const Output& output = run_.step(kOverTube);
+
+  ASSERT_EQ(output.replies.size(), 1);
+  EXPECT_EQ(output.replies[0].verdict, Verdict::kTaken);
+  ASSERT_TRUE(output.order.wanted);
+  ASSERT_GE(output.order.tubes.size(), 3);
+  for (const PoseOrderTube& tube : output.order.tubes) {
+    const auto at = run_.sheet->image_of(kOverTube, tube.address);
+    EXPECT_NEAR(tube.center_px.u_q16 / 65536.0, at[0], 1.0);
+    EXPECT_NEAR(tube.center_px.v_q16 / 65536.0, at[1], 1.0);
+  }
+  run_.step(kOverTube);
+  EXPECT_FALSE(output.order.wanted);
+}
+
+TEST_F(SessionOf, TakesOnePoseRequestAtATimeUntilItsResultCame) {
+  run_.begin();
+  run_.add(pose_request());
+  run_.step(kOverTube);
+  run_.add(pose_request());
+  const Output& output = run_.step(kOverTube);
+  ASSERT_EQ(output.replies.size(), 1);
+  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
+  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kBusy);
+
+  run_.add(pose_result(kTube));
+  run_.add(pose_request());
+  run_.step(kOverTube);
+  ASSERT_EQ(output.replies.size(), 2);
+  EXPECT_EQ(output.replies[1].verdict, Verdict::kTaken);
+}
+
+TEST_F(SessionOf, ComparesAPoseResultWithTheTubeThatItSees) {
+  run_.begin();
+  run_.add(pose_result(kTube));
+  run_.add(pose_result({21, 10}));
+  Event refused;
+  refused.kind = EventKind::kPoseResult;
+  refused.pose.reason = PoseReason::kMoving;
+  run_.add(refused);
+  const Output& output = run_.step(kOverTube);
+
+  ASSERT_EQ(output.replies.size(), 3);
+  EXPECT_EQ(output.replies[0].verdict, Verdict::kConfirmed);
+  EXPECT_EQ(output.replies[0].pose.position_nm[0], 254'000'000);
+  EXPECT_EQ(output.replies[1].verdict, Verdict::kContradicted);
+  EXPECT_EQ(output.replies[1].tube, kTube);
+  EXPECT_EQ(output.replies[2].verdict, Verdict::kRefused);
+  EXPECT_EQ(output.replies[2].pose.reason, PoseReason::kMoving);
+}
+
+TEST_F(SessionOf, RefusesAPoseRequestBeforeItKnowsTheTubes) {
+  run_.add(pose_request());
+  const Output& output = run_.step(kOverTube);
+
+  ASSERT_EQ(output.replies.size(), 1);
+  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
+  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kNotTracking);
+  EXPECT_FALSE(output.order.wanted);
+}
+
+TEST_F(SessionOf, RefusesAPoseRequestWhileTheToolMoves) {
+  run_.begin();
+  ToolPlace place = kOverTube;
+  for (int i = 0; i < 12; ++i) {
+    place = moved(place, 0.05 * i);
+    run_.step(place);
+  }
+  run_.add(pose_request());
+  const Output& output = run_.step(moved(place, 0.6));
+
+  ASSERT_EQ(output.replies.size(), 1);
+  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
+  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kMoving);
 }
 
 TEST_F(SessionOf, KeepsItsTrackingStateSmall) {

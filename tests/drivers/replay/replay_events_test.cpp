@@ -11,6 +11,44 @@ using core::EventKind;
 
 const std::string kHeader = "field,time_s,kind,values\n";
 
+TEST(ReplayEvents, ReadsWhatBecameOfAPoseRequestExactly) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+
+  ASSERT_TRUE(events.parse(
+      kHeader + "7,,pose-result,\"65,7,-41,1041.601901,178.1,-40.000001,45.000250001,-0.00114,0,"
+                "0.002,0.0021,0.000001,0.001,0.0011,0.0012,0.361713\"\n8,,pose-result,moving\n",
+      "a.events.csv", messages));
+
+  EXPECT_TRUE(events.has_pose_results());
+  events.take_before(8, list);
+  ASSERT_EQ(list.size(), 2);
+  const core::PoseResult& pose = list[0].pose;
+  EXPECT_EQ(list[0].kind, EventKind::kPoseResult);
+  EXPECT_EQ(pose.reason, core::PoseReason::kNone);
+  EXPECT_EQ(pose.tubes, 65);
+  EXPECT_EQ(pose.nearest, (core::TubeAddress{7, -41}));
+  EXPECT_EQ(pose.position_nm[0], 1'041'601'901);
+  EXPECT_EQ(pose.position_nm[2], -40'000'001);
+  EXPECT_EQ(pose.angles_ndeg[0], 45'000'250'001);
+  EXPECT_EQ(pose.position_sigma_nm[2], 1);
+  EXPECT_EQ(pose.angle_sigma_ndeg[2], 1'200'000);
+  EXPECT_EQ(pose.offset_nm, 361'713);
+  EXPECT_EQ(list[1].pose.reason, core::PoseReason::kMoving);
+}
+
+TEST(ReplayEvents, RefusesAPoseThatIsNeitherNumbersNorAReason) {
+  for (const char* values : {"", "fast", "65,7,41", "\"1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,x\""}) {
+    ReplayEvents events;
+    Messages messages;
+
+    EXPECT_FALSE(
+        events.parse(kHeader + "7,,pose-result," + values + "\n", "a.events.csv", messages));
+    EXPECT_EQ(messages.size(), 1U) << values;
+  }
+}
+
 TEST(ReplayEvents, ReadsEachKind) {
   ReplayEvents events;
   Messages messages;
@@ -90,7 +128,8 @@ TEST(ReplayEvents, TellsEachWrongRow) {
       (Messages{
           "a.events.csv:2: field: 'x', expected a whole number from 0",
           "a.events.csv:2: time_s: 'y', expected seconds with at most 9 decimals, or nothing",
-          "a.events.csv:2: kind: 'jump', expected claim, start, lamp, pose, pick or acknowledge",
+          "a.events.csv:2: kind: 'jump', expected claim, start, lamp, pose, pick, acknowledge "
+          "or pose-result",
           "a.events.csv:3: values: '4', expected R,C (row and column) for claim",
           "a.events.csv:4: values: '4,5,6', expected R,C (row and column) for claim",
           "a.events.csv:5: values: '1,2,3,4;1,3,5,6', expected 3 to 8 clicks R,C,U,V separated by "

@@ -66,9 +66,25 @@ TEST_F(SessionSettings, ReadsEveryTable) {
   EXPECT_EQ(settings_.edges.initial_threshold, 150);
   EXPECT_EQ(settings_.edges.region_threshold, 50);
   EXPECT_EQ(settings_.verification.aligned_within_mm, 2.0);
-  EXPECT_EQ(session_->camera_id, "c1");
-  EXPECT_EQ(session_->tool_id, "t1");
+  EXPECT_EQ(session_->camera_quality.id, "c1");
+  EXPECT_EQ(session_->tool_quality.id, "t1");
   EXPECT_TRUE(session_->has_tool);
+}
+
+TEST_F(SessionSettings, TakesACalibrationsUncertaintyWhereItHasSixNumbers) {
+  ASSERT_EQ(load(kWhole + "[camera_quality]\nid = \"c1\"\nsigma = [1, 2, 3, 4, 5]\n"
+                          "[tool_quality]\nid = \"t1\"\nsigma = [0.1, 0.2, 0.3, 1, 2, 3]\n"
+                          "correlation = [[1, 0.5, 0, 0, 0, 0], [0.5, 1, 0, 0, 0, 0],"
+                          "[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0],"
+                          "[0, 0, 0, 0, 0, 1]]\n"),
+            Messages{});
+
+  EXPECT_FALSE(session_->camera_quality.has_sigma);
+  EXPECT_TRUE(session_->tool_quality.has_sigma);
+  EXPECT_EQ(session_->tool_quality.sigma[2], 0.3);
+  EXPECT_EQ(session_->tool_quality.correlation[1], 0.5);
+  EXPECT_EQ(session_->camera_quality.correlation[7], 1.0);
+  EXPECT_EQ(session_->camera_quality.correlation[1], 0.0);
 }
 
 TEST_F(SessionSettings, HasTheDefaultsOfTheConventions) {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/pose/arc_edge.h"
+#include "core/pose/pose_estimate.h"
+#include "core/pose/position_correction.h"
+
+namespace tubesight::board {
+
+/// The arguments of `tubesight pose`; an empty path is one that was not given.
+struct PoseCommandOptions {
+  std::string session;
+  std::vector<std::string> images;
+  std::string start;  ///< "R,C,U,V;…"; empty: [start] of the session
+  bool only_start = false;
+  bool average = false;
+  std::string csv;
+  std::string covariance;
+  std::string overlay;
+  bool total = false;
+  std::string correct;                           ///< "ROW,COLUMN"; empty: no correction asked for
+  double limit_mm = core::pose::kProbeLimit_mm;  ///< of the insertion
+  core::pose::PoseMethod method = core::pose::PoseMethod::kRims;
+  core::pose::EdgeMethod edge = core::pose::EdgeMethod::kBlurredStep;
+};
+
+}  // namespace tubesight::board

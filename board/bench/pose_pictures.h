@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "board/bench/exit_status.h"
+#include "core/base/settings.h"
+#include "core/pose/averaged_picture.h"
+#include "core/pose/rest_average.h"
+#include "drivers/files/picture_reader.h"
+
+namespace tubesight::board {
+
+/// What became of the stills of one pose.
+struct StillsRead {
+  ExitStatus status = ExitStatus::kDone;  ///< kJobFailed: the camera moved
+  std::string message;                  ///< why not kDone, one line that begins with a file's name
+  core::pose::AveragedPicture picture;  ///< valid until the next call
+  double frame_shift_px = 0.0;          ///< largest between frames
+  double field_shift_px = 0.0;          ///< largest between the fields
+};
+
+/// Reads stills of one place and averages them, with the check that nothing moved between them nor,
+/// where the camera is interlaced, between their two fields.
+class StillAverager {
+ public:
+  explicit StillAverager(const core::CameraSettings& camera);
+
+  [[nodiscard]] StillsRead read(std::span<const std::string> images);
+
+  /// The last still read, to draw on.
+  [[nodiscard]] core::ImageView still() const { return still_.view(); }
+
+ private:
+  bool add(const std::string& image, core::pose::RestAverage& average, StillsRead& result);
+
+  core::CameraSettings camera_;
+  std::vector<std::uint16_t> sums_;
+  drivers::GreyPicture still_;
+};
+
+}  // namespace tubesight::board
