@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "core/base/static_vector.h"
+#include "core/pose/cholesky.h"
+#include "core/pose/gaussian_step.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -38,10 +38,17 @@ bool take_profile(const AveragedPicture& picture, const OutlineArc& arc, double 
   if (left < 0 || top < 0 || right >= picture.width_px || bottom >= picture.height_px) {
     return false;
   }
+  const bool upright = std::abs(tangent_u) < 0.1;
+  const double inverse_u = upright ? 0.0 : 1.0 / tangent_u;
+  const double span_u = upright ? 1e6 : half * std::abs(inverse_u) + 1.0;
   for (std::int32_t v = top; v <= bottom; ++v) {
     const std::uint16_t* const line = picture.line(v);
     const double dv = v - arc.v_px;
-    for (std::int32_t u = left; u <= right; ++u) {
+    // Of a slanted piece's box most pixels lie beyond its ends: a line is walked between them.
+    const double middle = arc.u_px - tangent_v * dv * inverse_u;
+    const auto first = static_cast<std::int32_t>(std::max<double>(left, middle - span_u));
+    const auto last = static_cast<std::int32_t>(std::min<double>(right, middle + span_u));
+    for (std::int32_t u = first; u <= last; ++u) {
       const double du = u - arc.u_px;
       const double x = tangent_u * du + tangent_v * dv;
       if (std::abs(x) > half) {
@@ -61,36 +68,31 @@ class CoarseProfile {
  public:
   CoarseProfile(const Profile& profile, double reach_px) : reach_px_(reach_px) {
     for (const ProfileSample& sample : profile) {
-      const auto bin = static_cast<std::int32_t>((sample.distance + reach_px) / kStep_px);
+      const auto bin = static_cast<std::int32_t>((sample.distance + reach_px) * (1.0 / kStep_px));
       if (bin >= 0 && bin < kBins) {
         sums_[static_cast<std::size_t>(bin)] += sample.grey;
         counts_[static_cast<std::size_t>(bin)] += 1.0;
       }
     }
     bins_ = std::min(kBins, static_cast<std::int32_t>(2.0 * reach_px / kStep_px));
-    fill_gaps();
+    sum_levels();
   }
 
   /// Where the first clear rise from the inside outwards is steepest; false without any.
   bool find_rise(double search_px, double least_contrast, double& place_px) const {
-    constexpr std::int32_t kHalf = 3;  // 1.5 px to either side
+    const auto first = std::max(
+        kHalf, static_cast<std::int32_t>(std::ceil((reach_px_ - search_px) / kStep_px)));
+    const auto last = std::min(
+        bins_ - kHalf, static_cast<std::int32_t>(std::floor((reach_px_ + search_px) / kStep_px)));
     double best = 0.0;
-    for (int pass = 0; pass < 2; ++pass) {
-      for (std::int32_t i = kHalf; i + kHalf <= bins_; ++i) {
-        const double at = i * kStep_px - reach_px_;
-        if (std::abs(at) > search_px) {
-          continue;
-        }
-        const double rise = mean(i, i + kHalf) - mean(i - kHalf, i);
-        if (pass == 0) {
-          best = std::max(best, rise);
-        } else if (rise >= 0.6 * best && rise >= mean_rise(i + 1)) {
-          place_px = at;
-          return true;
-        }
-      }
-      if (best < least_contrast) {
-        return false;
+    for (std::int32_t i = first; i <= last; ++i) {
+      best = std::max(best, rise(i));
+    }
+    for (std::int32_t i = first; i <= last && best >= least_contrast; ++i) {
+      const double here = rise(i);
+      if (here >= 0.6 * best && (i + kHalf >= bins_ || here >= rise(i + 1))) {
+        place_px = i * kStep_px - reach_px_;
+        return true;
       }
     }
     return false;
@@ -99,78 +101,96 @@ class CoarseProfile {
  private:
   static constexpr double kStep_px = 0.5;
   static constexpr std::int32_t kBins = 48;
+  static constexpr std::int32_t kHalf = 3;  // of the rise: 1.5 px to either side
 
-  void fill_gaps() {
-    double last = 0.0;
-    for (std::int32_t i = 0; i < bins_; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      last = counts_[k] > 0.0 ? sums_[k] / counts_[k] : last;
-      levels_[k] = last;
+  /// Bins without a pixel take the level of the one before, the first ones that of the next.
+  void sum_levels() {
+    double level = 0.0;
+    for (std::size_t k = 0; k < kBins && level == 0.0; ++k) {
+      level = counts_[k] > 0.0 ? sums_[k] / counts_[k] : 0.0;
     }
-    for (std::int32_t i = bins_ - 1; i >= 0 && counts_[0] == 0.0; --i) {
-      const auto k = static_cast<std::size_t>(i);
-      last = counts_[k] > 0.0 ? levels_[k] : last;
-      if (levels_[k] == 0.0) {
-        levels_[k] = last;
-      }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(bins_); ++k) {
+      level = counts_[k] > 0.0 ? sums_[k] / counts_[k] : level;
+      running_[k + 1] = running_[k] + level;
     }
   }
-  [[nodiscard]] double mean(std::int32_t from, std::int32_t to) const {
-    double sum = 0.0;
-    for (std::int32_t i = from; i < to; ++i) {
-      sum += levels_[static_cast<std::size_t>(i)];
-    }
-    return sum / (to - from);
-  }
-  [[nodiscard]] double mean_rise(std::int32_t i) const {
-    return i + 3 <= bins_ ? mean(i, i + 3) - mean(i - 3, i) : 0.0;
+  /// Mean of the bins after place `i` less that of those before it.
+  [[nodiscard]] double rise(std::int32_t i) const {
+    const auto k = static_cast<std::size_t>(i);
+    return (running_[k + kHalf] - 2.0 * running_[k] + running_[k - kHalf]) / kHalf;
   }
 
   double reach_px_;
   std::int32_t bins_ = 0;
   std::array<double, kBins> sums_{};
   std::array<double, kBins> counts_{};
-  std::array<double, kBins> levels_{};
+  std::array<double, kBins + 1> running_{};  ///< sums of the bins' levels
 };
 
-double gauss_integral(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
-
-double gauss_density(double x) {
-  return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi);
-}
-
-/// One step of the least squares: the sums over the window.
+/// One step of the least squares on the window: rows (1, share, slope), whose factors are the dark
+/// level, the contrast and the edge's move.
 struct StepSums {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< its lower triangle
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   double squares = 0.0;
   std::int32_t count = 0;
 };
 
 StepSums sum_step(const Profile& profile, const ArcEdge& edge, const ArcEdgeOptions& options) {
+  const double inverse_blur = 1.0 / options.blur_px;
+  const double contrast = edge.bright - edge.dark;
   StepSums sums;
+  double s = 0.0;
+  double ss = 0.0;
+  double g = 0.0;
+  double gs = 0.0;
+  double gg = 0.0;
+  double e = 0.0;
+  double es = 0.0;
+  double eg = 0.0;
   for (const ProfileSample& sample : profile) {
     const double x = sample.distance - edge.offset_px;
     if (x < -options.inner_px || x > options.outer_px) {
       continue;
     }
-    const double share = gauss_integral(x / options.blur_px);
-    const double slope =
-        -(edge.bright - edge.dark) * gauss_density(x / options.blur_px) / options.blur_px;
-    const Eigen::Vector3d row(1.0 - share, share, slope);
-    const double off = sample.grey - (edge.dark * row(0) + edge.bright * row(1));
-    sums.normal += row * row.transpose();
-    sums.right += row * off;
+    const GaussianStep step = gaussian_step(x * inverse_blur);
+    const double slope = -contrast * inverse_blur * step.slope;
+    const double off = sample.grey - (edge.dark + contrast * step.share);
+    s += step.share;
+    ss += step.share * step.share;
+    g += slope;
+    gs += slope * step.share;
+    gg += slope * slope;
+    e += off;
+    es += off * step.share;
+    eg += off * slope;
     sums.squares += off * off;
     ++sums.count;
   }
+  sums.normal << sums.count, 0.0, 0.0, s, ss, 0.0, g, gs, gg;
+  sums.right << e, es, eg;
   return sums;
+}
+
+/// The levels alone, the edge where it is.
+bool find_levels(const StepSums& sums, ArcEdge& edge) {
+  const double n = sums.normal(0, 0);
+  const double s = sums.normal(1, 0);
+  const double ss = sums.normal(1, 1);
+  const double determinant = n * ss - s * s;
+  if (!(determinant > 1e-9 * n * ss)) {
+    return false;
+  }
+  edge.dark = (ss * sums.right(0) - s * sums.right(1)) / determinant;
+  edge.bright = edge.dark + (n * sums.right(1) - s * sums.right(0)) / determinant;
+  return true;
 }
 
 /// Least squares of dark + (bright - dark) Phi((d - offset) / blur) on a window around the edge.
 ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeOptions& options) {
   constexpr int kSteps = 7;
   constexpr std::int32_t kFewestSamples = 10;
+  constexpr double kSettled_px = 1e-3;  // each step is some twentieth of the one before
   ArcEdge edge;
   edge.offset_px = start_px;
   for (int step = 0; step < kSteps; ++step) {
@@ -180,24 +200,23 @@ ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeO
     }
     if (step == 0) {
       // Levels alone first: without them the place has no slope.
-      const Eigen::Vector2d levels =
-          sums.normal.topLeftCorner<2, 2>().ldlt().solve(sums.right.head<2>());
-      edge.dark = levels(0);
-      edge.bright = levels(1);
+      if (!find_levels(sums, edge)) {
+        return {ArcRefusal::kNoFit};
+      }
       continue;
     }
-    const Eigen::LDLT<Eigen::Matrix3d> solver(sums.normal);
-    const Eigen::Vector3d change = solver.solve(sums.right);
-    if (solver.info() != Eigen::Success || !change.allFinite()) {
+    Cholesky<3> cholesky;
+    if (!cholesky.factor(sums.normal)) {
       return {ArcRefusal::kNoFit};
     }
+    const Eigen::Vector3d change = cholesky.solve(sums.right);
     edge.dark += change(0);
-    edge.bright += change(1);
+    edge.bright += change(0) + change(1);
     edge.offset_px += std::clamp(change(2), -1.0, 1.0);
     edge.rms_grey = std::sqrt(sums.squares / sums.count);
     const double noise = std::max(options.noise_grey, edge.rms_grey);
-    edge.sigma_px = noise * std::sqrt(std::max(0.0, solver.solve(Eigen::Vector3d::UnitZ())(2)));
-    if (std::abs(change(2)) < 1e-3 && step > 2) {
+    edge.sigma_px = noise * cholesky.forward(Eigen::Vector3d::UnitZ())(2);
+    if (std::abs(change(2)) < kSettled_px) {
       break;
     }
   }
