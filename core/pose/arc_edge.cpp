@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <Eigen/Core>
 
-#include "core/base/static_vector.h"
 #include "core/pose/cholesky.h"
 #include "core/pose/gaussian_step.h"
 
@@ -22,7 +23,26 @@ struct ProfileSample {
   double distance = 0.0;
   double grey = 0.0;
 };
-using Profile = StaticVector<ProfileSample, kMaxSamples>;
+
+/// Pixels beside the arc. Whether one belongs to it is decided without a branch, which no processor
+/// would foresee.
+class Profile {
+ public:
+  /// Takes the sample if it `belongs`; needs room() for one.
+  void add(const ProfileSample& sample, bool belongs) {
+    samples_[size_] = sample;
+    size_ += static_cast<std::size_t>(belongs);
+  }
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t room() const { return samples_.size() - size_; }
+  [[nodiscard]] const ProfileSample* begin() const { return samples_.data(); }
+  [[nodiscard]] const ProfileSample* end() const { return samples_.data() + size_; }
+
+ private:
+  std::array<ProfileSample, kMaxSamples> samples_{};
+  std::size_t size_ = 0;
+};
 
 bool take_profile(const AveragedPicture& picture, const OutlineArc& arc, double reach_px,
                   Profile& profile) {
@@ -48,16 +68,15 @@ bool take_profile(const AveragedPicture& picture, const OutlineArc& arc, double 
     const double middle = arc.u_px - tangent_v * dv * inverse_u;
     const auto first = static_cast<std::int32_t>(std::max<double>(left, middle - span_u));
     const auto last = static_cast<std::int32_t>(std::min<double>(right, middle + span_u));
+    if (std::cmp_greater(last - first + 1, profile.room())) {
+      break;
+    }
     for (std::int32_t u = first; u <= last; ++u) {
       const double du = u - arc.u_px;
       const double x = tangent_u * du + tangent_v * dv;
-      if (std::abs(x) > half) {
-        continue;
-      }
       const double y = arc.normal_u * du + arc.normal_v * dv - (arc.slope + arc.bend * x) * x;
-      if (std::abs(y) <= reach_px) {
-        static_cast<void>(profile.try_push_back({y, line[u] / static_cast<double>(kGreyScale)}));
-      }
+      profile.add({y, line[u] * (1.0 / kGreyScale)},
+                  (std::abs(x) <= half) & (std::abs(y) <= reach_px));
     }
   }
   return true;
@@ -80,8 +99,8 @@ class CoarseProfile {
 
   /// Where the first clear rise from the inside outwards is steepest; false without any.
   bool find_rise(double search_px, double least_contrast, double& place_px) const {
-    const auto first = std::max(
-        kHalf, static_cast<std::int32_t>(std::ceil((reach_px_ - search_px) / kStep_px)));
+    const auto first =
+        std::max(kHalf, static_cast<std::int32_t>(std::ceil((reach_px_ - search_px) / kStep_px)));
     const auto last = std::min(
         bins_ - kHalf, static_cast<std::int32_t>(std::floor((reach_px_ + search_px) / kStep_px)));
     double best = 0.0;
@@ -114,11 +133,13 @@ class CoarseProfile {
       running_[k + 1] = running_[k] + level;
     }
   }
-  /// Mean of the bins after place `i` less that of those before it.
-  [[nodiscard]] double rise(std::int32_t i) const {
+  /// Mean of the three bins from `i` on.
+  [[nodiscard]] double mean(std::int32_t i) const {
     const auto k = static_cast<std::size_t>(i);
-    return (running_[k + kHalf] - 2.0 * running_[k] + running_[k - kHalf]) / kHalf;
+    return (running_[k + kHalf] - running_[k]) * (1.0 / kHalf);
   }
+  /// From before to after place `i`.
+  [[nodiscard]] double rise(std::int32_t i) const { return mean(i) - mean(i - kHalf); }
 
   double reach_px_;
   std::int32_t bins_ = 0;
@@ -133,11 +154,20 @@ struct StepSums {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< its lower triangle
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   double squares = 0.0;
-  std::int32_t count = 0;
 };
 
-StepSums sum_step(const Profile& profile, const ArcEdge& edge, const ArcEdgeOptions& options) {
-  const double inverse_blur = 1.0 / options.blur_px;
+/// The samples of the window around an edge, by their distance from it.
+void take_window(const Profile& profile, double offset_px, const ArcEdgeOptions& options,
+                 Profile& window) {
+  window.clear();
+  for (const ProfileSample& sample : profile) {
+    const double x = sample.distance - offset_px;
+    window.add({x, sample.grey}, (x >= -options.inner_px) & (x <= options.outer_px));
+  }
+}
+
+StepSums sum_step(const Profile& window, const ArcEdge& edge, double blur_px) {
+  const double inverse_blur = 1.0 / blur_px;
   const double contrast = edge.bright - edge.dark;
   StepSums sums;
   double s = 0.0;
@@ -148,27 +178,23 @@ StepSums sum_step(const Profile& profile, const ArcEdge& edge, const ArcEdgeOpti
   double e = 0.0;
   double es = 0.0;
   double eg = 0.0;
-  for (const ProfileSample& sample : profile) {
-    const double x = sample.distance - edge.offset_px;
-    if (x < -options.inner_px || x > options.outer_px) {
-      continue;
-    }
-    const GaussianStep step = gaussian_step(x * inverse_blur);
-    const double slope = -contrast * inverse_blur * step.slope;
+  for (const ProfileSample& sample : window) {
+    const GaussianStep step = gaussian_step(sample.distance * inverse_blur);
     const double off = sample.grey - (edge.dark + contrast * step.share);
     s += step.share;
     ss += step.share * step.share;
-    g += slope;
-    gs += slope * step.share;
-    gg += slope * slope;
+    g += step.slope;
+    gs += step.slope * step.share;
+    gg += step.slope * step.slope;
     e += off;
     es += off * step.share;
-    eg += off * slope;
+    eg += off * step.slope;
     sums.squares += off * off;
-    ++sums.count;
   }
-  sums.normal << sums.count, 0.0, 0.0, s, ss, 0.0, g, gs, gg;
-  sums.right << e, es, eg;
+  const double by_move = -contrast * inverse_blur;
+  sums.normal << static_cast<double>(window.size()), 0.0, 0.0, s, ss, 0.0, by_move * g,
+      by_move * gs, by_move * by_move * gg;
+  sums.right << e, es, by_move * eg;
   return sums;
 }
 
@@ -181,7 +207,7 @@ bool find_levels(const StepSums& sums, ArcEdge& edge) {
   if (!(determinant > 1e-9 * n * ss)) {
     return false;
   }
-  edge.dark = (ss * sums.right(0) - s * sums.right(1)) / determinant;
+  edge.dark += (ss * sums.right(0) - s * sums.right(1)) / determinant;
   edge.bright = edge.dark + (n * sums.right(1) - s * sums.right(0)) / determinant;
   return true;
 }
@@ -189,15 +215,17 @@ bool find_levels(const StepSums& sums, ArcEdge& edge) {
 /// Least squares of dark + (bright - dark) Phi((d - offset) / blur) on a window around the edge.
 ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeOptions& options) {
   constexpr int kSteps = 7;
-  constexpr std::int32_t kFewestSamples = 10;
-  constexpr double kSettled_px = 1e-3;  // each step is some twentieth of the one before
+  constexpr std::size_t kFewestSamples = 10;
+  constexpr double kSettled_px = 1e-3;  // each step is a tenth of the one before, or less
   ArcEdge edge;
   edge.offset_px = start_px;
+  Profile window;
   for (int step = 0; step < kSteps; ++step) {
-    const StepSums sums = sum_step(profile, edge, options);
-    if (sums.count < kFewestSamples) {
+    take_window(profile, edge.offset_px, options, window);
+    if (window.size() < kFewestSamples) {
       return {ArcRefusal::kNoFit};
     }
+    const StepSums sums = sum_step(window, edge, options.blur_px);
     if (step == 0) {
       // Levels alone first: without them the place has no slope.
       if (!find_levels(sums, edge)) {
@@ -213,10 +241,10 @@ ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeO
     edge.dark += change(0);
     edge.bright += change(0) + change(1);
     edge.offset_px += std::clamp(change(2), -1.0, 1.0);
-    edge.rms_grey = std::sqrt(sums.squares / sums.count);
+    edge.rms_grey = std::sqrt(sums.squares / static_cast<double>(window.size()));
     const double noise = std::max(options.noise_grey, edge.rms_grey);
     edge.sigma_px = noise * cholesky.forward(Eigen::Vector3d::UnitZ())(2);
-    if (std::abs(change(2)) < kSettled_px) {
+    if (step >= 2 && std::abs(change(2)) < kSettled_px) {
       break;
     }
   }
