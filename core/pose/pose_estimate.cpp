@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "core/pose/pose_seed.h"
@@ -11,7 +12,6 @@ namespace tubesight::core::pose {
 namespace {
 
 using CameraSheet = Transform<frames::Camera, frames::Sheet>;
-using SheetTool = Transform<frames::Sheet, frames::Tool>;
 
 // A bore seen this much larger or smaller than it is: the addresses' scale is wrong.
 constexpr double kBoreTolerance = 0.15;
@@ -81,9 +81,21 @@ struct Contest {
   bool ambiguous = false;
 };
 
-bool same_pose(const SheetTool& a, const SheetTool& b) {
-  return (a.translation_mm() - b.translation_mm()).norm() < 0.05 &&
-         (a.rotation() - b.rotation()).norm() < 2e-3;
+// Whether two fits ended at one pose, as well. What they took for outliers may differ, and with it
+// the pose by some of its standard deviations.
+bool same_pose(const RimFit& a, const RimFit& b, double rms_ratio) {
+  constexpr double kSigmas = 3.0;
+  const auto spread = [&](Eigen::Index from) {
+    const double of_a = a.covariance.block<3, 3>(from, from).trace();
+    const double of_b = b.covariance.block<3, 3>(from, from).trace();
+    return kSigmas * std::sqrt(std::max(of_a, of_b));
+  };
+  const Eigen::Vector3d apart_mm =
+      a.T_sheet_tool.translation_mm() - b.T_sheet_tool.translation_mm();
+  const Eigen::Matrix3d turned = a.T_sheet_tool.rotation() - b.T_sheet_tool.rotation();
+  const auto rms = std::minmax(a.rms_px, b.rms_px);
+  return rms.second < rms_ratio * rms.first && apart_mm.norm() < 0.05 + spread(0) &&
+         turned.norm() < 2e-3 + spread(3);
 }
 
 // Fits the first candidate, and any other that the ellipses' centres don't rule out: one whose RMS
@@ -99,6 +111,7 @@ Contest fit_candidates(const PoseModel& model, const RimList& rims, const PoseOp
   const double scale_px = model.camera.parameters().scale_px.x;
   Contest contest;
   contest.fit = fit_from(0);
+  double rival_px = std::numeric_limits<double>::max();
   std::int32_t best = 0;
   std::int32_t last = 0;
   for (std::int32_t i = 1; i < seeds.candidates.size(); ++i) {
@@ -109,18 +122,23 @@ Contest fit_candidates(const PoseModel& model, const RimList& rims, const PoseOp
     }
     RimFit other = fit_from(i);
     last = i;
-    if (!other.solved || same_pose(other.T_sheet_tool, contest.fit.T_sheet_tool)) {
+    if (!other.solved) {
       continue;
     }
+    const bool same = contest.fit.solved && same_pose(other, contest.fit, options.ambiguity_ratio);
     if (!contest.fit.solved || other.rms_px < contest.fit.rms_px) {
       std::swap(contest.fit, other);
       best = i;
     }
+    if (same) {
+      continue;
+    }
+    if (other.solved && other.points > contest.fit.points * 4 / 5) {
+      rival_px = std::min(rival_px, other.rms_px);
+    }
     contest.second_rms_px = other.rms_px;
-    contest.ambiguous =
-        contest.ambiguous || (other.solved && other.points > contest.fit.points * 4 / 5 &&
-                              other.rms_px < options.ambiguity_ratio * contest.fit.rms_px);
   }
+  contest.ambiguous = rival_px < options.ambiguity_ratio * contest.fit.rms_px;
   if (best != last) {
     contest.fit = fit_from(best);  // leaves its rims in the workspace
   }

@@ -17,12 +17,13 @@ namespace tubesight::core::pose {
 struct PoseSeeds {
   FixedList<SeenCircle, kMaxTubesInView> circles;  ///< the ellipses, one a pair
   PointPairList pairs;                             ///< ellipses' centres; sigma of 0.1 px
-  FixedList<PoseCandidate, 6> candidates;
+  FixedList<PoseCandidate, 12> candidates;
 };
 
 /// Proposes poses from the centres of the rims' ellipses as they are, which is right to some tenths
 /// of a millimetre: both solutions of the planar closed form, or for three tube-ends (or more, all
-/// but one on a line) those of three points [Fallon 5.2.1].
+/// but one on a line) those of three points [Fallon 5.2.1], and those in the planes that
+/// their ellipses lie in.
 ///
 /// kTooFewTubes: fewer rims than `min_tubes` are ellipses; kCollinear: their centres lie on one
 /// line; kAddressesContradict: no pose shows three tube-ends where the rims are.

@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "core/pose/bitangent.h"
+#include "core/pose/symmetric_eigen.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -152,6 +153,25 @@ Eigen::Vector2d eccentricity(const CameraSheet& T_camera_sheet, const Eigen::Vec
   const Eigen::Vector3d ellipse =
       t * t.z() - radius_mm * radius_mm * (R(2, 0) * R.col(0) + R(2, 1) * R.col(1));
   return t.hnormalized() - ellipse.hnormalized();
+}
+
+std::array<Eigen::Vector3d, 2> circle_normals(const Conic& conic) {
+  // C - l2 I, l2 the middle eigenvalue, is the pair of planes through the projection point that cut
+  // circles out of the cone.
+  const SymmetricEigen<3> eigen(conic);
+  std::array<int, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return eigen.values(a) > eigen.values(b); });
+  const double greatest = eigen.values(order[0]);
+  const double middle = eigen.values(order[1]);
+  const double least = eigen.values(order[2]);
+  const Eigen::Vector3d across = std::sqrt(greatest - middle) * eigen.vectors.col(order[0]);
+  const Eigen::Vector3d along = std::sqrt(middle - least) * eigen.vectors.col(order[2]);
+  return {(along + across).normalized(), (along - across).normalized()};
+}
+
+Eigen::Vector2d center_by_normal(const Conic& conic, const Eigen::Vector3d& normal) {
+  return Eigen::Vector3d(conic.inverse() * normal).hnormalized();
 }
 
 }  // namespace tubesight::core::pose

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -55,5 +56,15 @@ enum class CenterConstruction : std::uint8_t {
 [[nodiscard]] Eigen::Vector2d eccentricity(
     const Transform<frames::Camera, frames::Sheet>& T_camera_sheet,
     const Eigen::Vector2d& center_mm, double radius_mm);
+
+/// The normals of the planes in which a circle may lie that shows as this ellipse: two, by the
+/// circular sections of its cone of sight. Unit vectors, camera frame, of either sense; equal when
+/// the circle is seen straight on. Some 2 degrees off from edges of 0.3 px.
+[[nodiscard]] std::array<Eigen::Vector3d, 2> circle_normals(const Conic& conic);
+
+/// The image of the circle's centre when its plane has this normal: the pole of the line on which
+/// the plane vanishes, C^-1 n. Wrong by a tenth of the eccentricity for each 6 degrees of n or
+/// less.
+[[nodiscard]] Eigen::Vector2d center_by_normal(const Conic& conic, const Eigen::Vector3d& normal);
 
 }  // namespace tubesight::core::pose

@@ -58,6 +58,30 @@ TEST(Eccentricity, VanishesWhenThePlanesAreParallel) {
   EXPECT_LT(eccentricity(straight, {20.0, 10.0}, 9.3).norm(), 1e-16);
 }
 
+TEST(CircleNormals, HoldTheNormalOfThePlaneAndLeadToTheCentre) {
+  const CameraSheet T = leaning();
+  const Eigen::Vector2d center(30.0, -12.0);
+  const Conic conic = image_of_circle(T, center, 9.3);
+
+  const auto normals = circle_normals(conic);
+
+  const Eigen::Vector3d true_normal = T.rotation().col(2);
+  const double first = std::abs(normals[0].dot(true_normal));
+  const double second = std::abs(normals[1].dot(true_normal));
+  EXPECT_NEAR(std::max(first, second), 1.0, 1e-12);
+  EXPECT_LT(std::min(first, second), 0.99);
+  EXPECT_LT((center_by_normal(conic, -true_normal) - image_of(T, center)).norm(), 1e-13);
+}
+
+TEST(CircleNormals, AreOneWhenTheCircleIsSeenStraightOn) {
+  const CameraSheet T(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, 0.0, 160.0));
+
+  const auto normals = circle_normals(image_of_circle(T, {0.0, 0.0}, 9.3));
+
+  EXPECT_NEAR(std::abs(normals[0].z()), 1.0, 1e-12);
+  EXPECT_NEAR(std::abs(normals[1].z()), 1.0, 1e-12);
+}
+
 TEST(ConstructCenter, IsExactForEqualCirclesByBothConstructions) {
   const auto circles = patch(leaning(), 9.3);
 
