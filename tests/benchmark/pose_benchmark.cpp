@@ -97,23 +97,48 @@ void edges_to_pose(benchmark::State& state) {
 }
 BENCHMARK(edges_to_pose)->Unit(benchmark::kMicrosecond);
 
-/// The edges of nine tube-ends across their predicted rims.
-void measure_edges(benchmark::State& state) {
-  Still& s = still();
-  const SheetView view(s.model, s.outcome.pose.estimate.T_camera_sheet);
-  RimOutline outline;
-  Rim rim;
+/// Measures the edges of nine tube-ends across their rims as `view` predicts them.
+void measure_nine(Still& s, const SheetView& view) {
+  static RimOutline outline;
+  static Rim rim;
   RimMeasureOptions options;
   options.edge.search_px = 2.0;
-  for (auto _ : state) {
-    for (const PictureStart& tube : s.nine) {
-      benchmark::DoNotOptimize(project_rim(view, s.model.center_mm(tube.address),
-                                           s.model.bore_mm / 2.0, options.arc_px, outline));
-      benchmark::DoNotOptimize(measure_rim(s.picture, outline, options, rim));
+  s.workspace.rims.clear();
+  for (const PictureStart& tube : s.nine) {
+    rim.address = tube.address;
+    if (project_rim(view, s.model.center_mm(tube.address), s.model.bore_mm / 2.0, options.arc_px,
+                    outline) &&
+        measure_rim(s.picture, outline, options, rim) <= RimFinding::kPartly) {
+      static_cast<void>(s.workspace.rims.try_push_back(rim));
     }
   }
 }
+
+/// The edges of nine tube-ends across their predicted rims.
+void measure_edges(benchmark::State& state) {
+  Still& s = still();
+  s.estimate(true);
+  const SheetView view(s.model, s.outcome.pose.estimate.T_camera_sheet);
+  for (auto _ : state) {
+    measure_nine(s, view);
+  }
+}
 BENCHMARK(measure_edges)->Unit(benchmark::kMicrosecond);
+
+/// Both: the edges of nine tube-ends measured in the picture, and the pose from them.
+void measure_and_fit(benchmark::State& state) {
+  Still& s = still();
+  s.estimate(true);
+  const SheetView view(s.model, s.outcome.pose.estimate.T_camera_sheet);
+  for (auto _ : state) {
+    measure_nine(s, view);
+    const PoseOutcome pose = estimate_pose(s.model, s.workspace.rims, {}, s.workspace.pose);
+    if (!pose.has_value() || pose.estimate.tubes != 9) {
+      state.SkipWithError("not the pose of nine tube-ends");
+    }
+  }
+}
+BENCHMARK(measure_and_fit)->Unit(benchmark::kMicrosecond);
 
 /// All from the averaged picture: the scan at nine places, five passes, with no other tube-ends.
 void picture_to_pose_nine(benchmark::State& state) {

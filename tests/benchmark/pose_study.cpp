@@ -14,6 +14,7 @@
 #include "core/overlay/palette.h"
 #include "core/pose/calibration_uncertainty.h"
 #include "tests/benchmark/line_plot.h"
+#include "tests/benchmark/pose_study_methods.h"
 #include "tests/benchmark/pose_study_points.h"
 #include "tests/benchmark/pose_study_scene.h"
 
@@ -188,6 +189,7 @@ int run(int poses, const std::string& plot) {
       poses);
   print_ellipse_table(10 * poses);
   print_center_table(scene, 2 * poses);
+  print_point_table(scene, poses);
   run_methods(scene, poses);
   std::vector<Panel> panels;
   for (const Study& study : studies()) {
