@@ -90,7 +90,10 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   pose->add_option("IMAGE", options.images, "Stills: 8-bit grey PNG or PGM")->required();
   pose->add_option("--start", options.start,
                    "Tube-ends by row, column and a place in their dark, px; default: [start]")
-      ->option_text("\"R,C,U,V;...\"");
+      ->option_text("\"R,C,U,V;...\"")
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "names no tube-end, expected R,C,U,V;R,C,U,V;..." : "");
+      });
   pose->add_flag("--only-start", options.only_start, "Use the tube-ends named and no others");
   pose->add_flag("--average", options.average, "Average all stills, up to 32, to one pose");
   pose->add_option("--csv", options.csv, "Write one row a pose")->option_text("P.csv");

@@ -169,6 +169,12 @@ TEST_P(PoseRefusals, AreOneLineWithTheReasonAndLeaveNothing) {
   EXPECT_EQ(folder_.names().size(), before);
 }
 
+std::vector<std::string> more_than_32() {
+  std::vector<std::string> arguments(33, "STILL");
+  arguments.insert(arguments.end(), {"--average", "--start", kThree});
+  return arguments;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     EachKind, PoseRefusals,
     ::testing::Values(
@@ -210,6 +216,12 @@ INSTANTIATE_TEST_SUITE_P(
                 {"STILL", "--start", "7,41,304;7,42,373,192"},
                 2,
                 "--start: '7,41,304', expected R,C,U,V;R,C,U,V"},
+        Refusal{"StartEmpty",
+                {"STILL", "--start", ""},
+                2,
+                "--start: names no tube-end, expected R,C,U,V;R,C,U,V;..."},
+        Refusal{"MoreThan32", more_than_32(), 2,
+                "more than 32 pictures, expected at most that many with --average"},
         Refusal{"StartOutside",
                 {"STILL", "--start", "7,41,904,240;7,42,373,192;6,42,310,129"},
                 2,

@@ -15,8 +15,12 @@ constexpr int kPoses = 150;
 struct Consistency {
   double mean = 0.0;
   std::array<double, 6> component{};
+  std::array<int, 3> below{};  // poses below kQuantiles
   int poses = 0;
 };
+
+// Of the chi-square distribution with six degrees of freedom: 10 %, 50 % and 90 % lie below.
+constexpr std::array<double, 3> kQuantiles = {2.204, 5.348, 10.645};
 
 Consistency consistency_of(const tests::RimLook& look, const RimBundleOptions& rims,
                            std::size_t tubes) {
@@ -36,7 +40,11 @@ Consistency consistency_of(const tests::RimLook& look, const RimBundleOptions& r
     }
     const Vector6d error = pose_error(outcome.estimate.T_sheet_tool, true_pose(place));
     const Matrix6d& covariance = outcome.estimate.covariance;
-    result.mean += error.dot(covariance.inverse() * error);
+    const double square = error.dot(covariance.inverse() * error);
+    result.mean += square;
+    for (std::size_t k = 0; k < kQuantiles.size(); ++k) {
+      result.below[k] += square < kQuantiles[k] ? 1 : 0;
+    }
     for (int k = 0; k < 6; ++k) {
       result.component[static_cast<std::size_t>(k)] += error(k) * error(k) / covariance(k, k);
     }
@@ -50,8 +58,8 @@ Consistency consistency_of(const tests::RimLook& look, const RimBundleOptions& r
 }
 
 TEST(PoseCovariance, IsTrueWhereNoiseAndSpreadAreKnown) {
-  // Noise and spreads as the options say: the sum of six squares has mean 6, deviation sqrt(12 /
-  // n).
+  // Noise and spreads as the options say: the sum of six squares is distributed as chi-square with
+  // six degrees of freedom, of mean 6 and deviation sqrt(12 / n).
   RimBundleOptions options;
   options.center_sigma_mm = 0.02;
   options.center_sigma_fixed = true;
@@ -64,6 +72,11 @@ TEST(PoseCovariance, IsTrueWhereNoiseAndSpreadAreKnown) {
   EXPECT_NEAR(c.mean, 6.0, 4.0 * std::sqrt(12.0 / c.poses));
   for (const double component : c.component) {
     EXPECT_NEAR(component, 1.0, 4.0 * std::sqrt(2.0 / c.poses));
+  }
+  constexpr std::array<double, 3> kShares = {0.1, 0.5, 0.9};
+  for (std::size_t k = 0; k < kShares.size(); ++k) {
+    const double share = static_cast<double>(c.below[k]) / c.poses;
+    EXPECT_NEAR(share, kShares[k], 4.0 * std::sqrt(kShares[k] * (1.0 - kShares[k]) / c.poses)) << k;
   }
 }
 
