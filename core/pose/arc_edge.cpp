@@ -20,8 +20,8 @@ constexpr double kLongestHalf_px = 4.5;
 
 /// A pixel beside the arc: its distance from the outline, outwards, and its grey level.
 struct ProfileSample {
-  double distance = 0.0;
-  double grey = 0.0;
+  double distance;
+  double grey;
 };
 
 /// Pixels beside the arc. Whether one belongs to it is decided without a branch, which no processor
@@ -40,7 +40,7 @@ class Profile {
   [[nodiscard]] const ProfileSample* end() const { return samples_.data() + size_; }
 
  private:
-  std::array<ProfileSample, kMaxSamples> samples_{};
+  std::array<ProfileSample, kMaxSamples> samples_;  // 5 KB that nobody needs cleared
   std::size_t size_ = 0;
 };
 
@@ -148,12 +148,19 @@ class CoarseProfile {
   std::array<double, kBins + 1> running_{};  ///< sums of the bins' levels
 };
 
-/// One step of the least squares on the window: rows (1, share, slope), whose factors are the dark
-/// level, the contrast and the edge's move.
+/// Sums over the window of a step's share s and slope g and of the grey level y: all that the least
+/// squares need of its samples, whatever the levels of dark and bright.
 struct StepSums {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();  ///< its lower triangle
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double squares = 0.0;
+  double n = 0.0;
+  double s = 0.0;
+  double ss = 0.0;
+  double g = 0.0;
+  double gs = 0.0;
+  double gg = 0.0;
+  double y = 0.0;
+  double ys = 0.0;
+  double yg = 0.0;
+  double yy = 0.0;
 };
 
 /// The samples of the window around an edge, by their distance from it.
@@ -166,85 +173,74 @@ void take_window(const Profile& profile, double offset_px, const ArcEdgeOptions&
   }
 }
 
-StepSums sum_step(const Profile& window, const ArcEdge& edge, double blur_px) {
+StepSums sum_step(const Profile& window, double blur_px) {
   const double inverse_blur = 1.0 / blur_px;
-  const double contrast = edge.bright - edge.dark;
   StepSums sums;
-  double s = 0.0;
-  double ss = 0.0;
-  double g = 0.0;
-  double gs = 0.0;
-  double gg = 0.0;
-  double e = 0.0;
-  double es = 0.0;
-  double eg = 0.0;
+  sums.n = static_cast<double>(window.size());
   for (const ProfileSample& sample : window) {
     const GaussianStep step = gaussian_step(sample.distance * inverse_blur);
-    const double off = sample.grey - (edge.dark + contrast * step.share);
-    s += step.share;
-    ss += step.share * step.share;
-    g += step.slope;
-    gs += step.slope * step.share;
-    gg += step.slope * step.slope;
-    e += off;
-    es += off * step.share;
-    eg += off * step.slope;
-    sums.squares += off * off;
+    const double grey = sample.grey;
+    sums.s += step.share;
+    sums.ss += step.share * step.share;
+    sums.g += step.slope;
+    sums.gs += step.slope * step.share;
+    sums.gg += step.slope * step.slope;
+    sums.y += grey;
+    sums.ys += grey * step.share;
+    sums.yg += grey * step.slope;
+    sums.yy += grey * grey;
   }
-  const double by_move = -contrast * inverse_blur;
-  sums.normal << static_cast<double>(window.size()), 0.0, 0.0, s, ss, 0.0, by_move * g,
-      by_move * gs, by_move * by_move * gg;
-  sums.right << e, es, by_move * eg;
   return sums;
 }
 
-/// The levels alone, the edge where it is.
-bool find_levels(const StepSums& sums, ArcEdge& edge) {
-  const double n = sums.normal(0, 0);
-  const double s = sums.normal(1, 0);
-  const double ss = sums.normal(1, 1);
-  const double determinant = n * ss - s * s;
-  if (!(determinant > 1e-9 * n * ss)) {
+/// Least squares of dark + (bright - dark) Phi((d - offset) / blur) in one move from the sums at
+/// `edge.offset_px`: the levels alone first, without which the place has no slope, then all three
+/// together. False when the samples don't determine them.
+bool move_edge(const StepSums& sums, const ArcEdgeOptions& options, ArcEdge& edge,
+               double& move_px) {
+  const double determinant = sums.n * sums.ss - sums.s * sums.s;
+  if (!(determinant > 1e-9 * sums.n * sums.ss)) {
     return false;
   }
-  edge.dark += (ss * sums.right(0) - s * sums.right(1)) / determinant;
-  edge.bright = edge.dark + (n * sums.right(1) - s * sums.right(0)) / determinant;
+  const double dark = (sums.ss * sums.y - sums.s * sums.ys) / determinant;
+  const double contrast = (sums.n * sums.ys - sums.s * sums.y) / determinant;
+  const double by_move = -contrast / options.blur_px;
+  Eigen::Matrix3d normal;  // of dark, contrast and move: the lower triangle counts
+  normal << sums.n, 0.0, 0.0, sums.s, sums.ss, 0.0, by_move * sums.g, by_move * sums.gs,
+      by_move * by_move * sums.gg;
+  Cholesky<3> cholesky;
+  if (!cholesky.factor(normal)) {
+    return false;
+  }
+  // With the best levels only the move's own sum of residuals is left.
+  const double right = by_move * (sums.yg - dark * sums.g - contrast * sums.gs);
+  const Eigen::Vector3d change = cholesky.solve(Eigen::Vector3d(0.0, 0.0, right));
+  const double squares = std::max(0.0, sums.yy - dark * sums.y - contrast * sums.ys);
+  edge.dark = dark + change(0);
+  edge.bright = edge.dark + contrast + change(1);
+  edge.rms_grey = std::sqrt(squares / sums.n);
+  const double noise = std::max(options.noise_grey, edge.rms_grey);
+  edge.sigma_px = noise * cholesky.forward(Eigen::Vector3d::UnitZ())(2);
+  move_px = std::clamp(change(2), -1.0, 1.0);
+  edge.offset_px += move_px;
   return true;
 }
 
-/// Least squares of dark + (bright - dark) Phi((d - offset) / blur) on a window around the edge.
 ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeOptions& options) {
-  constexpr int kSteps = 7;
+  constexpr int kMoves = 6;
   constexpr std::size_t kFewestSamples = 10;
-  constexpr double kSettled_px = 1e-3;  // each step is a tenth of the one before, or less
+  constexpr double kSettled_px = 1e-3;  // each move is a tenth of the one before, or less
   ArcEdge edge;
   edge.offset_px = start_px;
   Profile window;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int i = 0; i < kMoves; ++i) {
     take_window(profile, edge.offset_px, options, window);
-    if (window.size() < kFewestSamples) {
+    double move_px = 0.0;
+    if (window.size() < kFewestSamples ||
+        !move_edge(sum_step(window, options.blur_px), options, edge, move_px)) {
       return {ArcRefusal::kNoFit};
     }
-    const StepSums sums = sum_step(window, edge, options.blur_px);
-    if (step == 0) {
-      // Levels alone first: without them the place has no slope.
-      if (!find_levels(sums, edge)) {
-        return {ArcRefusal::kNoFit};
-      }
-      continue;
-    }
-    Cholesky<3> cholesky;
-    if (!cholesky.factor(sums.normal)) {
-      return {ArcRefusal::kNoFit};
-    }
-    const Eigen::Vector3d change = cholesky.solve(sums.right);
-    edge.dark += change(0);
-    edge.bright += change(0) + change(1);
-    edge.offset_px += std::clamp(change(2), -1.0, 1.0);
-    edge.rms_grey = std::sqrt(sums.squares / static_cast<double>(window.size()));
-    const double noise = std::max(options.noise_grey, edge.rms_grey);
-    edge.sigma_px = noise * cholesky.forward(Eigen::Vector3d::UnitZ())(2);
-    if (step >= 2 && std::abs(change(2)) < kSettled_px) {
+    if (i > 0 && std::abs(move_px) < kSettled_px) {
       break;
     }
   }
