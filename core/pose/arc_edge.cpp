@@ -18,6 +18,9 @@ namespace {
 constexpr std::int32_t kMaxSamples = 320;
 constexpr double kLongestHalf_px = 4.5;
 
+// From where the profile rises steepest an edge is not found farther off than this.
+constexpr double kFarthest_px = 1.5;
+
 /// A pixel beside the arc: its distance from the outline, outwards, and its grey level.
 struct ProfileSample {
   double distance;
@@ -163,13 +166,13 @@ struct StepSums {
   double yy = 0.0;
 };
 
-/// The samples of the window around an edge, by their distance from it.
-void take_window(const Profile& profile, double offset_px, const ArcEdgeOptions& options,
+/// The samples from `inner_px` inside a place to `outer_px` outside it, by their distance from it.
+void take_window(const Profile& profile, double place_px, double inner_px, double outer_px,
                  Profile& window) {
   window.clear();
   for (const ProfileSample& sample : profile) {
-    const double x = sample.distance - offset_px;
-    window.add({x, sample.grey}, (x >= -options.inner_px) & (x <= options.outer_px));
+    const double x = sample.distance - place_px;
+    window.add({x, sample.grey}, (x >= -inner_px) & (x <= outer_px));
   }
 }
 
@@ -229,12 +232,14 @@ bool move_edge(const StepSums& sums, const ArcEdgeOptions& options, ArcEdge& edg
 ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeOptions& options) {
   constexpr int kMoves = 6;
   constexpr std::size_t kFewestSamples = 10;
-  constexpr double kSettled_px = 1e-3;  // each move is a tenth of the one before, or less
-  ArcEdge edge;
-  edge.offset_px = start_px;
+  constexpr double kSettled_px = 3e-3;  // each move is a tenth of the one before, or less
+  ArcEdge edge;                         // from the start until it has settled
+  Profile around;
   Profile window;
+  take_window(profile, start_px, options.inner_px + kFarthest_px, options.outer_px + kFarthest_px,
+              around);
   for (int i = 0; i < kMoves; ++i) {
-    take_window(profile, edge.offset_px, options, window);
+    take_window(around, edge.offset_px, options.inner_px, options.outer_px, window);
     double move_px = 0.0;
     if (window.size() < kFewestSamples ||
         !move_edge(sum_step(window, options.blur_px), options, edge, move_px)) {
@@ -244,6 +249,7 @@ ArcEdge fit_blurred_step(const Profile& profile, double start_px, const ArcEdgeO
       break;
     }
   }
+  edge.offset_px += start_px;
   return edge;
 }
 
@@ -348,7 +354,7 @@ ArcEdge find_arc_edge(const AveragedPicture& picture, const OutlineArc& arc,
   }
   if (edge.bright - edge.dark < options.least_contrast) {
     edge.refusal = ArcRefusal::kLowContrast;
-  } else if (std::abs(edge.offset_px - start_px) > 1.5 ||
+  } else if (std::abs(edge.offset_px - start_px) > kFarthest_px ||
              std::abs(edge.offset_px) > options.search_px) {
     edge.refusal = ArcRefusal::kNoFit;
   } else if (is_saturated(profile, edge.offset_px)) {
