@@ -49,7 +49,8 @@ ANY_DRIVER = BASE + ["hal"]
 CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
     cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
     tuple type_traits utility variant version""".split())
-EIGEN_FOLDERS = ("core/base", "core/pose", "core/calibration", "core/kinematics")
+EIGEN_FOLDERS = ("core/base", "core/pose", "core/calibration", "core/kinematics",
+                 "core/rendering")
 
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
     cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string
@@ -58,6 +59,7 @@ POSIX = re.compile(r"^(errno|fcntl|poll|signal|unistd|sys/[a-z_]+)\.h$")
 DRIVER_LIBRARY = {
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
     "drivers/settings": re.compile(r"^toml\+\+/"),
+    "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it
 }
 
 FORBIDDEN_BELOW_BOARD = [
