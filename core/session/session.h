@@ -5,6 +5,7 @@
 #include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "core/base/result.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
@@ -20,26 +21,8 @@ struct Input {
   EventList events;                   ///< since the last field, in time order
 };
 
-/// What the box says to an event.
-struct Reply {
-  /// How the event was answered.
-  enum class Verdict : std::uint8_t {
-    kConfirmed,     ///< claim: the box vouches for that tube; pick: `tube` stands there;
-                    ///< pose result: `pose` is under the tube that the box sees
-    kContradicted,  ///< claim: the box vouches for `tube` instead; pose result: the box sees `tube`
-    kUnknown,       ///< the box cannot tell
-    kTaken,         ///< start: tracking began; pose request: see `Output::order`
-    kRefused,       ///< start: see `refusal`; pose request and pose result: see `pose.reason`
-    kNotServed,     ///< this build has nobody to answer that kind of event
-  };
-  EventKind kind = EventKind::kClaim;
-  Verdict verdict = Verdict::kUnknown;
-  TubeAddress tube{};
-  tracking::StartRefusal refusal = tracking::StartRefusal::kNone;
-  PoseResult pose{};
-};
-
-using ReplyList = StaticVector<Reply, kMaxEventsPerField>;
+using core::Reply;
+using core::ReplyList;
 
 /// What one step leaves; reused from field to field.
 struct Output {
@@ -76,6 +59,10 @@ class Session {
   /// result to a later step as an event, so that step() never waits and a recording with its events
   /// replays exactly.
   void step(const Input& input, Output& output);
+
+  /// Switches the tracker's margin check off: the self-proof of the campaign, which must then find
+  /// wrong tubes. Call after configure(); nothing else may.
+  void disable_margin_check_for_self_proof() { model_.margin_check = false; }
 
   /// The tracker, for estimates and places of tubes in the last field's picture.
   [[nodiscard]] const tracking::Tracker<S>& tracker() const { return tracker_; }

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/base/image_view.h"
+#include "core/base/reply.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "core/tracking/field_measurement.h"
@@ -12,17 +13,7 @@
 
 namespace tubesight::core::tracking {
 
-/// Why clicks were not taken; docs/messages.md has the words.
-enum class StartRefusal : std::uint8_t {
-  kNone,
-  kTooFew,         ///< fewer than three clicks
-  kNoTubeThere,    ///< no dark tube-end around a click
-  kSameTubeTwice,  ///< two clicks in one tube-end
-  kAddresses,      ///< the addresses contradict the lattice or its handedness
-  kHeight,         ///< the tube-ends' distances do not fit a tool below this sheet
-  kSize,           ///< the tube-ends' sizes do not fit the bore
-  kPicture,        ///< the other tube-ends are not where the clicks put them
-};
+using core::StartRefusal;
 
 /// A click as the path takes it: address and full-frame position in 1/65536 px.
 struct StartClick {

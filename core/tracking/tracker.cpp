@@ -27,6 +27,12 @@ M systematic_mm() {
   return from_scaled<M>(102, 10);
 }
 
+// How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
+template <typename M>
+M bisected_mm() {
+  return from_scaled<M>(512, 10);
+}
+
 template <Scalar S>
 PosePrior<S> prior_from_last_field() {
   PosePrior<S> prior;
@@ -112,7 +118,7 @@ typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
   const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, outcome.pose.origin.z);
   std::int32_t range_px = 3 + rounded(times(reach_mm, px_per_mm));
   if (range_px > 9) {
-    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach_mm + systematic_mm<M>(),
+    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach_mm + bisected_mm<M>(),
                                     record_.light, outcome.pose)) {
       outcome.trouble = Reason::kNoTubes;
       outcome.contradiction = true;
@@ -178,6 +184,10 @@ void Tracker<S>::follow(const Field& field) {
     lose(Reason::kTime);
     return;
   }
+  if (!model_->margin_check) {
+    follow_unchecked(field);
+    return;
+  }
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(Reason::kGap);
@@ -201,7 +211,7 @@ void Tracker<S>::follow(const Field& field) {
     believed_mm_ = reach;
   }
   const M believed = std::min(believed_mm_, reach);
-  if (field.status != FieldStatus::kGood) {
+  if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
     coast(Reason::kDamagedField, predicted, reach);
     return;
   }
@@ -271,12 +281,17 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   last_time_ = field.mid_exposure;
   last_sequence_ = field.sequence;
   contradictions_ = 0;
+  to_agree_ = std::max(to_agree_ - 1, 0);
+  learn_noise();
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
   if (outcome.fit.used < 3) {
     reason_ = Reason::kFewTubes;
   } else {
     reason_ = outcome.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
+  }
+  if (to_agree_ > 0) {
+    reason_ = doubted_;
   }
   state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
   choose_primary();
@@ -286,10 +301,13 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   strayed_mm_ = {};
 }
 
-// One field torn, repeated or of noise is passed over; three in a row are a jump.
+// One field torn, repeated or of noise is passed over; three in a row are a jump. What comes behind
+// it may be another false picture that happens to fit: two in a row must agree.
 template <Scalar S>
 void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm) {
   constexpr std::int32_t kMostContradictions = 2;
+  to_agree_ = 2;
+  doubted_ = reason;
   if (++contradictions_ > kMostContradictions || !motion_.known) {
     lose(reason);
     return;

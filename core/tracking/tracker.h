@@ -10,6 +10,7 @@
 #include "core/tracking/field_measurement.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/normal_equations.h"
+#include "core/tracking/picture_memory.h"
 #include "core/tracking/pose_fit.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
@@ -71,12 +72,15 @@ class Tracker {
   [[nodiscard]] FieldTime span_since_good(const Field& field);
   [[nodiscard]] Mm<S> velocity_deviation_mm(Unit<S> span_s) const;
   void follow(const Field& field);
+  void follow_unchecked(const Field& field);
   [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
                                 Mm<S> reach_mm, bool confirm_all);
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
                                      Outcome& outcome);
   [[nodiscard]] Reason gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
                             Unit<S> span_s) const;
+  [[nodiscard]] bool shows_old_picture(const Field& field);
+  void learn_noise();
   void accept(const Outcome& outcome, const Field& field, Unit<S> span_s);
   void reanchor();
   void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
@@ -112,6 +116,12 @@ class Tracker {
   std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
   std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
   std::int32_t contradictions_ = 0;   ///< fields in a row that refuted the prediction
+  std::int32_t to_agree_ = 0;         ///< fields that must agree before a tube is named again
+  Reason doubted_ = Reason::kNone;    ///< why
+  PictureMemory memory_{};
+  PictureLikeness likeness_{};  ///< of the last field that was looked at
+  std::int32_t rested_ = 0;     ///< fields in a row with the tool at rest
+  bool noisy_ = false;  ///< pictures of a tool at rest differ: equal ones are no new pictures
   bool measured_now_ = false;
   bool primary_known_ = false;
   TubeAddress primary_{};

@@ -73,8 +73,8 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
     seen.plug = true;
     static_cast<void>(tubes.try_push_back(seen));
   }
-  // After a picture that refuted the prediction nothing is said of the tool.
-  if (contradictions_ == 0 &&
+  // After a picture that refuted the prediction nothing is said of the tool until two agree.
+  if (contradictions_ == 0 && to_agree_ == 0 &&
       (state_ == TrackState::kTracking || state_ == TrackState::kDegraded)) {
     report_tool(sighting);
   }
@@ -104,7 +104,8 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
   sighting.margin_permyriad =
       static_cast<std::int32_t>(divide_rounded(std::int64_t{to_scaled(margin, 16)} * 10000, 65536));
   // Four standard deviations from the rounding limit, or the address is not said.
-  if (map_->state(nearest) == TubeState::kAbsent || margin < from_scaled<M>(4, 0)) {
+  const bool certain = margin >= from_scaled<M>(4, 0) || !model_->margin_check;
+  if (map_->state(nearest) == TubeState::kAbsent || !certain) {
     return;
   }
   sighting.tool_known = true;

@@ -13,6 +13,11 @@ void Tracker<S>::start(const Field& field) {
   primary_known_ = false;
   motion_ = {};
   contradictions_ = 0;
+  to_agree_ = 0;
+  memory_.clear();
+  likeness_ = {};
+  noisy_ = false;
+  rested_ = 0;
   per_sequence_ns_ = 0;
   usual_numbers_ = 0;
   record_.plugs.clear();

@@ -140,6 +140,23 @@ class FollowFixed : public ::testing::Test {
   SheetRun<FixedPoint> run_;
 };
 
+TEST_F(FollowFixed, FollowsTheAccelerationOfMotionToItsVeryLimit) {
+  run_.settings->motion = {1600.0, 12000.0};
+  run_.configure();
+  for (int degrees = 0; degrees < 360; degrees += 30) {
+    run_.begin();
+    const double x = std::cos(degrees * 3.14159265358979 / 180.0);
+    const double y = std::sin(degrees * 3.14159265358979 / 180.0);
+    // From a field's instant on: the prediction is the whole reach astray in each field.
+    for (int field = 1; field <= 8; ++field) {
+      const double t = field * kFieldSpan_s;
+      run_.step(moved(kOverTube, 6000.0 * t * t * x, 6000.0 * t * t * y));
+      ASSERT_EQ(run_.sighting().state, TrackState::kTracking)
+          << degrees << " degrees, field " << field;
+    }
+  }
+}
+
 TEST_F(FollowFixed, KeepsThePrimaryTubeUntilAnotherIsNearerByATenth) {
   run_.configure();
   run_.begin();

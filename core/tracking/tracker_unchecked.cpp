@@ -1,0 +1,32 @@
+#include "core/base/instantiate.h"
+#include "core/tracking/tracker.h"
+
+// The tracker without its margin check, which proves that the campaign finds wrong tubes.
+namespace tubesight::core::tracking {
+
+// Believes every picture that can be fitted to a lattice, wherever the tool would have gone: what
+// follow() does without reach, limit and gate.
+template <Scalar S>
+void Tracker<S>::follow_unchecked(const Field& field) {
+  const Unit<S> span_s = seconds<S>(field.mid_exposure - last_time_);
+  const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
+  predicted_deviation_mm_ = deviation_mm_;
+  if (field.status != FieldStatus::kGood) {
+    coast(Reason::kDamagedField, predicted, {});
+    return;
+  }
+  const Mm<S> half_step =
+      times(model_->lattice.parameters().shortest_step, from_scaled<Mm<S>>(1, 1));
+  const Outcome outcome = observe(field.pixels, predicted, half_step, false);
+  if (!outcome.fitted) {
+    coast(outcome.trouble, predicted, {});
+    return;
+  }
+  accept(outcome, field, span_s);
+}
+
+#define TUBESIGHT_INSTANTIATE(S) template void Tracker<S>::follow_unchecked(const Field&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::core::tracking
