@@ -128,6 +128,9 @@ Result<void> AtomicFile::fail(const char* what) {
 }
 
 Result<void> AtomicFile::flush() {
+  if (!is_open()) {
+    return Unexpected(Error::kNotReady);
+  }
   if (failed_) {
     return Unexpected(Error::kIo);
   }

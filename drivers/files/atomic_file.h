@@ -29,6 +29,11 @@ class AtomicFile {
   [[nodiscard]] core::Result<void> write(std::string_view text);
   [[nodiscard]] core::Result<void> write(std::span<const std::byte> bytes);
 
+  /// Hands all bytes so far to the system, which finds out then whether there is room for them: of
+  /// several files that belong together none is put in its place before all have been flushed.
+  /// Errors: kIo, kNotReady.
+  [[nodiscard]] core::Result<void> flush();
+
   /// Writes the rest and puts the file in its place. Errors: kIo, kNotReady; the target is then as
   /// it was before open().
   [[nodiscard]] core::Result<void> commit();
@@ -43,7 +48,6 @@ class AtomicFile {
 
  private:
   core::Result<void> fail(const char* what);
-  core::Result<void> flush();
 
   std::string path_;       ///< as the caller gave it
   std::string target_;     ///< where the rename goes: path_ with symbolic links resolved

@@ -29,6 +29,9 @@ class Y4mWriter {
   [[nodiscard]] core::Result<void> write_frame(const core::ImageView& grey);
   [[nodiscard]] core::Result<void> write_frame(const core::RgbImageView& rgb);
 
+  /// As AtomicFile::flush().
+  [[nodiscard]] core::Result<void> flush() { return file_.flush(); }
+
   /// Finishes the file. Errors: kIo, kNotReady.
   [[nodiscard]] core::Result<void> commit() { return file_.commit(); }
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
-#include "drivers/files/byte_source.h"
-#include "drivers/settings/session_checks.h"
+#include "drivers/settings/disk_files.h"
+#include "drivers/settings/read_table.h"
 #include "drivers/settings/session_tables.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/settings/table_reader.h"
@@ -18,67 +18,32 @@ constexpr std::array<std::string_view, 10> kTables = {
     "camera", "camera_quality", "tool",  "tool_quality", "tubesheet",
     "start",  "motion",         "edges", "verification", "base"};
 
-class DiskFiles final : public TextFiles {
- public:
-  Result<void> read(const std::string& path, std::string& text, std::string& message) override {
-    // The longest lists of tubes take some 300 KB.
-    constexpr std::size_t kLargestFile = std::size_t{16} << 20;
-    return read_whole_file(path, kLargestFile, text, message);
-  }
-};
-
-/// Reads one table by `read_table` where it stands; a needed one that is missing is a mistake. Says
-/// whether it was there and without mistakes.
-template <typename ReadTable>
-bool read(SettingsDocument& document, std::string_view name, bool needed, ReadTable read_table) {
-  const SettingsTable* const table = document.find(name);
-  if (table == nullptr) {
-    if (needed && document.complete()) {
-      document.problems().push_back({{},
-                                     std::string(name) + ": the table is missing, expected [" +
-                                         std::string(name) + "] here or in an included file"});
-    }
-    return false;
-  }
-  if (!table->node->is_table()) {
-    document.problems().push_back(
-        {table->place,
-         std::string(name) + ": a list of tables, expected [" + std::string(name) + "] once"});
-    return false;
-  }
-  const std::size_t before = document.problems().size();
-  TableReader reader(*table->node->as_table(), table->place, std::string(name),
-                     document.problems());
-  read_table(reader);
-  reader.finish();
-  return document.problems().size() == before;
-}
-
 void read_all(SettingsDocument& document, NeededTables needed, SessionFile& session) {
   core::SessionSettings& to = session.settings;
-  const bool camera = read(document, "camera", needed.camera,
-                           [&](TableReader& table) { read_camera(table, to.camera); });
+  const bool camera = read_table(document, "camera", needed.camera,
+                                 [&](TableReader& table) { read_camera(table, to.camera); });
   if (camera) {
     // Without a start, everything may be looked at.
     to.start.window_px = {0, 0, to.camera.width_px - 1, to.camera.height_px - 1};
     to.start.optimum_px = {(to.camera.width_px - 1) / 2.0, (to.camera.height_px - 1) / 2.0};
   }
-  read(document, "tool", needed.tool, [&](TableReader& table) { read_tool(table, to.tool); });
-  const bool tubesheet = read(document, "tubesheet", needed.tubesheet,
-                              [&](TableReader& table) { read_tubesheet(table, to.tubesheet); });
+  read_table(document, "tool", needed.tool, [&](TableReader& table) { read_tool(table, to.tool); });
+  const bool tubesheet =
+      read_table(document, "tubesheet", needed.tubesheet,
+                 [&](TableReader& table) { read_tubesheet(table, to.tubesheet); });
   // What relates the start to other tables can be judged only when these are sound.
   const StartContext context{camera ? &to.camera : nullptr, tubesheet ? &to.tubesheet : nullptr};
-  read(document, "start", needed.start,
-       [&](TableReader& table) { read_start(table, context, to.start); });
-  read(document, "motion", false, [&](TableReader& table) { read_motion(table, to.motion); });
-  read(document, "edges", false, [&](TableReader& table) { read_edges(table, to.edges); });
-  read(document, "verification", false,
-       [&](TableReader& table) { read_verification(table, to.verification); });
-  read(document, "camera_quality", false,
-       [&](TableReader& table) { read_quality(table, session.camera_quality); });
-  read(document, "tool_quality", false,
-       [&](TableReader& table) { read_quality(table, session.tool_quality); });
-  read(document, "base", false, [&](TableReader& table) { read_base(table); });
+  read_table(document, "start", needed.start,
+             [&](TableReader& table) { read_start(table, context, to.start); });
+  read_table(document, "motion", false, [&](TableReader& table) { read_motion(table, to.motion); });
+  read_table(document, "edges", false, [&](TableReader& table) { read_edges(table, to.edges); });
+  read_table(document, "verification", false,
+             [&](TableReader& table) { read_verification(table, to.verification); });
+  read_table(document, "camera_quality", false,
+             [&](TableReader& table) { read_quality(table, session.camera_quality); });
+  read_table(document, "tool_quality", false,
+             [&](TableReader& table) { read_quality(table, session.tool_quality); });
+  read_table(document, "base", false, [&](TableReader& table) { read_base(table); });
 }
 
 }  // namespace

@@ -76,29 +76,8 @@ template <typename T, std::size_t N>
 T optional_word(TableReader& table, std::string_view key,
                 const std::array<std::string_view, N>& words) {
   std::size_t index = 0;
-  if (table.has(key)) {
-    table.word(key, words, index);
-  } else {
-    table.ignore(key);
-  }
+  table.optional_word(key, words, index);
   return static_cast<T>(index);
-}
-
-void optional_number(TableReader& table, std::string_view key, NumberRange range, double& value) {
-  if (table.has(key)) {
-    table.number(key, range, value);
-  } else {
-    table.ignore(key);
-  }
-}
-
-void optional_whole(TableReader& table, std::string_view key, WholeRange range,
-                    std::int32_t& value) {
-  if (table.has(key)) {
-    table.whole(key, range, value);
-  } else {
-    table.ignore(key);
-  }
 }
 
 using AddressList = core::StaticVector<TubeAddress, core::kMaxListedTubes>;
@@ -182,27 +161,6 @@ void read_click(TableReader& table, std::size_t index, const toml::node& entry,
   }
 }
 
-void read_clicks(TableReader& table, const StartContext& context, core::StartSettings& start) {
-  constexpr const char* kExpected = "at least 3 times { row = R, column = C, at_px = [U, V] }";
-  const toml::array* const entries = table.list("tubes", true, kExpected);
-  if (entries == nullptr) {
-    return;
-  }
-  const std::size_t before = table.problems().size();
-  if (entries->size() < 3) {
-    table.complain("tubes", describe(*entries) + ", expected " + kExpected);
-  }
-  for (std::size_t i = 0; i < entries->size() && i <= core::kMaxStartPoints; ++i) {
-    read_click(table, i, (*entries)[i], context, start);
-  }
-  if (table.problems().size() == before) {
-    const std::string wrong = why_clicks_contradict(start, context.tubesheet);
-    if (!wrong.empty()) {
-      table.complain("tubes", wrong);
-    }
-  }
-}
-
 bool read_window(TableReader& table, const core::CameraSettings* camera,
                  std::array<std::int32_t, 4>& window_px) {
   if (!table.wholes("window_px", {0, kSide_px.most - 1}, window_px)) {
@@ -239,7 +197,7 @@ void read_camera(TableReader& table, core::CameraSettings& camera) {
                        std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px));
   }
   table.number("distortion_per_mm2", kDistortion, camera.distortion_per_mm2);
-  optional_number(table, "distortion2_per_mm4", kDistortion2, camera.distortion2_per_mm4);
+  table.optional_number("distortion2_per_mm4", kDistortion2, camera.distortion2_per_mm4);
   if (table.problems().size() == before) {
     const std::string wrong = why_picture_folds(camera);
     if (!wrong.empty()) {
@@ -255,11 +213,7 @@ void read_tool(TableReader& table, core::ToolSettings& tool) {
 
 void read_tubesheet(TableReader& table, core::TubesheetSettings& tubesheet) {
   tubesheet.origin_mm = {};
-  if (table.has("origin_mm")) {
-    table.numbers("origin_mm", kSheetPlace, tubesheet.origin_mm);
-  } else {
-    table.ignore("origin_mm");
-  }
+  table.optional_numbers("origin_mm", kSheetPlace, tubesheet.origin_mm);
   const bool row_step = table.numbers("row_step_mm", kStep, tubesheet.row_step_mm);
   const bool column_step = table.numbers("column_step_mm", kStep, tubesheet.column_step_mm);
   const bool bore = table.number("bore_mm", kBore, tubesheet.bore_mm);
@@ -289,8 +243,34 @@ void read_tubesheet(TableReader& table, core::TubesheetSettings& tubesheet) {
   }
 }
 
+void read_clicks(TableReader& table, const StartContext& context, core::StartSettings& start) {
+  constexpr const char* kExpected = "at least 3 times { row = R, column = C, at_px = [U, V] }";
+  const toml::array* const entries = table.list("tubes", true, kExpected);
+  if (entries == nullptr) {
+    return;
+  }
+  const std::size_t before = table.problems().size();
+  if (entries->size() < 3) {
+    table.complain("tubes", describe(*entries) + ", expected " + kExpected);
+  }
+  for (std::size_t i = 0; i < entries->size() && i <= core::kMaxStartPoints; ++i) {
+    read_click(table, i, (*entries)[i], context, start);
+  }
+  if (table.problems().size() == before) {
+    const std::string wrong = why_clicks_contradict(start, context.tubesheet);
+    if (!wrong.empty()) {
+      table.complain("tubes", wrong);
+    }
+  }
+}
+
 void read_start(TableReader& table, const StartContext& context, core::StartSettings& start) {
   read_clicks(table, context, start);
+  read_start_window(table, context, start);
+}
+
+void read_start_window(TableReader& table, const StartContext& context,
+                       core::StartSettings& start) {
   const bool window = read_window(table, context.camera, start.window_px);
   if (window) {
     start.optimum_px = {(start.window_px[0] + start.window_px[2]) / 2.0,
@@ -312,17 +292,17 @@ void read_start(TableReader& table, const StartContext& context, core::StartSett
 }
 
 void read_motion(TableReader& table, core::MotionSettings& motion) {
-  optional_number(table, "max_speed_mm_s", kSpeed, motion.max_speed_mm_s);
-  optional_number(table, "max_acceleration_mm_s2", kAcceleration, motion.max_acceleration_mm_s2);
+  table.optional_number("max_speed_mm_s", kSpeed, motion.max_speed_mm_s);
+  table.optional_number("max_acceleration_mm_s2", kAcceleration, motion.max_acceleration_mm_s2);
 }
 
 void read_edges(TableReader& table, core::EdgeSettings& edges) {
-  optional_whole(table, "initial_threshold", kInitialThreshold, edges.initial_threshold);
-  optional_whole(table, "region_threshold", kRegionThreshold, edges.region_threshold);
+  table.optional_whole("initial_threshold", kInitialThreshold, edges.initial_threshold);
+  table.optional_whole("region_threshold", kRegionThreshold, edges.region_threshold);
 }
 
 void read_verification(TableReader& table, core::VerificationSettings& verification) {
-  optional_number(table, "aligned_within_mm", kGate, verification.aligned_within_mm);
+  table.optional_number("aligned_within_mm", kGate, verification.aligned_within_mm);
 }
 
 void read_quality(TableReader& table, CalibrationQuality& quality) {

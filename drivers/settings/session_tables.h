@@ -27,6 +27,9 @@ struct StartContext {
 
 /// `[start]`: clicks, window, optimum.
 void read_start(TableReader& table, const StartContext& context, core::StartSettings& start);
+/// Its two halves: `tubes`; `window_px` and `optimum_px`.
+void read_clicks(TableReader& table, const StartContext& context, core::StartSettings& start);
+void read_start_window(TableReader& table, const StartContext& context, core::StartSettings& start);
 
 /// `[motion]`, `[edges]`, `[verification]`: every key may be left out.
 void read_motion(TableReader& table, core::MotionSettings& motion);

@@ -38,6 +38,9 @@ class SettingsDocument {
   /// Whether all files could be read and are TOML, so that a table not found is a table missing.
   [[nodiscard]] bool complete() const { return complete_; }
 
+  /// The files opened, in that order.
+  [[nodiscard]] const std::vector<std::string>& files() const { return names_; }
+
   /// All mistakes so far; readers of tables add theirs.
   [[nodiscard]] SettingsProblems& problems() { return problems_; }
 

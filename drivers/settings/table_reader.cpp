@@ -90,6 +90,12 @@ TableReader::TableReader(const toml::table& table, SettingsPlace place, std::str
 
 bool TableReader::has(std::string_view key) const { return table_->contains(key); }
 
+void TableReader::ignore(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+    known_.emplace_back(key);
+  }
+}
+
 bool TableReader::whole(std::string_view key, WholeRange range, std::int32_t& value) {
   const std::string expected = expected_text(range);
   const toml::node* const node = get(key, expected);
@@ -197,6 +203,59 @@ bool TableReader::word(std::string_view key, std::span<const std::string_view> w
   return true;
 }
 
+bool TableReader::optional_whole(std::string_view key, WholeRange range, std::int32_t& value) {
+  return absent(key) || whole(key, range, value);
+}
+
+bool TableReader::optional_number(std::string_view key, NumberRange range, double& value) {
+  return absent(key) || number(key, range, value);
+}
+
+bool TableReader::optional_numbers(std::string_view key, NumberRange range,
+                                   std::span<double> values) {
+  return absent(key) || numbers(key, range, values);
+}
+
+bool TableReader::optional_wholes(std::string_view key, WholeRange range,
+                                  std::span<std::int32_t> values) {
+  return absent(key) || wholes(key, range, values);
+}
+
+bool TableReader::optional_text(std::string_view key, std::string& value) {
+  return absent(key) || text(key, value);
+}
+
+bool TableReader::optional_word(std::string_view key, std::span<const std::string_view> words,
+                                std::size_t& index) {
+  return absent(key) || word(key, words, index);
+}
+
+bool TableReader::optional_switch(std::string_view key, bool& value) {
+  if (absent(key)) {
+    return true;
+  }
+  const toml::node* const node = get(key, "true or false");
+  const auto* const truth = node->as_boolean();
+  if (truth == nullptr) {
+    complain(key, describe(*node) + ", expected true or false");
+    return false;
+  }
+  value = truth->get();
+  return true;
+}
+
+bool TableReader::address(std::string_view key, core::TubeAddress& value) {
+  const toml::node* const node = get(key, "[row, column]");
+  if (node == nullptr) {
+    return false;
+  }
+  const bool good = read_address(*node, value);
+  if (!good) {
+    complain(key, describe(*node) + ", expected [row, column]");
+  }
+  return good;
+}
+
 const toml::array* TableReader::list(std::string_view key, bool needed, const char* expected) {
   if (!needed && !has(key)) {
     ignore(key);
@@ -245,6 +304,11 @@ void TableReader::complain_entry(std::string_view key, std::size_t index, const 
 SettingsPlace TableReader::place_of(const toml::node& node) const {
   const auto line = static_cast<std::int64_t>(node.source().begin.line);
   return {place_.file, line > 0 ? line : place_.line};
+}
+
+bool TableReader::absent(std::string_view key) {
+  ignore(key);
+  return !has(key);
 }
 
 const toml::node* TableReader::get(std::string_view key, const std::string& expected) {

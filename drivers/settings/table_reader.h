@@ -49,8 +49,20 @@ class TableReader {
   /// One of `words`; `index` says which.
   bool word(std::string_view key, std::span<const std::string_view> words, std::size_t& index);
 
+  /// The same for keys that may be left out: then nothing changes and true is said.
+  bool optional_whole(std::string_view key, WholeRange range, std::int32_t& value);
+  bool optional_number(std::string_view key, NumberRange range, double& value);
+  bool optional_numbers(std::string_view key, NumberRange range, std::span<double> values);
+  bool optional_wholes(std::string_view key, WholeRange range, std::span<std::int32_t> values);
+  bool optional_text(std::string_view key, std::string& value);
+  bool optional_word(std::string_view key, std::span<const std::string_view> words,
+                     std::size_t& index);
+  bool optional_switch(std::string_view key, bool& value);  ///< true or false
+  /// [row, column].
+  bool address(std::string_view key, core::TubeAddress& value);
+
   /// Accepts a key whatever it holds, or its absence.
-  void ignore(std::string_view key) { known_.emplace_back(key); }
+  void ignore(std::string_view key);
 
   /// The list under a key as nodes; null when absent (a mistake if `needed`) or no list.
   const toml::array* list(std::string_view key, bool needed, const char* expected);
@@ -69,10 +81,14 @@ class TableReader {
   /// Where a node stands.
   [[nodiscard]] SettingsPlace place_of(const toml::node& node) const;
 
+  /// Where the table stands.
+  [[nodiscard]] SettingsPlace place() const { return place_; }
+
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] SettingsProblems& problems() { return *problems_; }
 
  private:
+  bool absent(std::string_view key);
   const toml::node* get(std::string_view key, const std::string& expected);
   [[nodiscard]] std::string path(std::string_view key) const;
 

@@ -1,0 +1,151 @@
+#include "drivers/simulated/fault_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Core>
+
+#include "core/base/trigonometry.h"
+
+namespace tubesight::drivers {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Rotation by an angle about an axis of any length [Rodrigues].
+Eigen::Matrix3d rotation_about(const std::array<double, 3>& axis, double angle_rad) {
+  const Eigen::Vector3d direction = Eigen::Vector3d(axis[0], axis[1], axis[2]).normalized();
+  Eigen::Matrix3d cross;
+  cross << 0.0, -direction.z(), direction.y(),  //
+      direction.z(), 0.0, -direction.x(),       //
+      -direction.y(), direction.x(), 0.0;
+  return Eigen::Matrix3d::Identity() + std::sin(angle_rad) * cross +
+         (1.0 - std::cos(angle_rad)) * cross * cross;
+}
+
+double end_of(const Fault& fault, double period_s) {
+  if (fault.for_s > 0.0) {
+    return fault.at_s + fault.for_s;
+  }
+  return lasts_to_the_end(fault.kind) ? std::numeric_limits<double>::infinity()
+                                      : fault.at_s + period_s;
+}
+
+bool by_frames(FaultKind kind) { return kind == FaultKind::kSwapped || kind == FaultKind::kCut; }
+
+bool at_work(const Fault& fault, const FieldSlot& slot) {
+  // Times that should be equal differ in their last bits: a nanosecond is nothing here.
+  constexpr double kNothing_s = 1e-9;
+  const double time_s = (by_frames(fault.kind) ? slot.frame_time_s : slot.time_s) + kNothing_s;
+  if (fault.kind == FaultKind::kLampDrift) {
+    return time_s >= fault.at_s;
+  }
+  const double period_s =
+      by_frames(fault.kind) && fault.for_s == 0.0 ? slot.period_s * (1.0 + 1e-6) : slot.period_s;
+  return time_s >= fault.at_s && time_s < end_of(fault, period_s);
+}
+
+void apply_to_light(const Fault& fault, double time_s, FieldFaults& to) {
+  if (fault.kind == FaultKind::kLampOut) {
+    to.lamp *= fault.level;
+  } else if (fault.kind == FaultKind::kLampsDead) {
+    to.dead_lamps = static_cast<std::uint16_t>(to.dead_lamps | fault.lamps);
+  } else if (fault.kind == FaultKind::kLampDrift) {
+    const double done =
+        fault.for_s > 0.0 ? std::clamp((time_s - fault.at_s) / fault.for_s, 0.0, 1.0) : 1.0;
+    to.lamp *= 1.0 + done * (fault.level - 1.0);
+  }
+}
+
+void apply_to_picture(const Fault& fault, FieldFaults& to) {
+  switch (fault.kind) {
+    case FaultKind::kRepeated: to.repeated = true; break;
+    case FaultKind::kTorn: to.torn_after = fault.share; break;
+    case FaultKind::kSwapped: to.swapped = true; break;
+    case FaultKind::kBlack: to.filled = static_cast<std::uint8_t>(fault.level); break;
+    case FaultKind::kSaturated: to.filled = std::uint8_t{255}; break;
+    case FaultKind::kSignalLoss:
+      to.snow = true;
+      to.damaged = to.damaged || fault.told;
+      break;
+    case FaultKind::kEmi:
+      to.emi_share = std::max(to.emi_share, fault.share);
+      to.emi_amplitude = std::max(to.emi_amplitude, fault.amplitude);
+      break;
+    case FaultKind::kSaltPepper:
+      to.salt_pepper_share = std::max(to.salt_pepper_share, fault.share);
+      break;
+    default: break;
+  }
+}
+
+void apply(const Fault& fault, const FieldSlot& slot, FieldFaults& to) {
+  to.kinds |= std::uint32_t{1} << static_cast<unsigned>(fault.kind);
+  switch (fault.kind) {
+    case FaultKind::kDropped: to.lost = true; break;
+    case FaultKind::kCut:
+      to.lost = true;
+      to.unnumbered = to.unnumbered || !fault.told;
+      break;
+    case FaultKind::kKnock:
+      to.knocked = true;
+      to.knock =
+          core::Transform<core::frames::Camera, core::frames::Camera>(
+              rotation_about(fault.axis, fault.angle_deg * kPi / 180.0), Eigen::Vector3d::Zero()) *
+          to.knock;
+      break;
+    case FaultKind::kJump:
+      to.jump[0] += fault.rows;
+      to.jump[1] += fault.columns;
+      break;
+    default:
+      apply_to_light(fault, slot.time_s, to);
+      apply_to_picture(fault, to);
+      break;
+  }
+}
+
+}  // namespace
+
+FieldFaults faults_of(std::span<const Fault> faults, const FieldSlot& slot) {
+  FieldFaults all;
+  for (const Fault& fault : faults) {
+    if (at_work(fault, slot)) {
+      apply(fault, slot, all);
+    }
+  }
+  return all;
+}
+
+core::Transform<core::frames::Tool, core::frames::Tool> shake_at(std::span<const Fault> faults,
+                                                                 double time_s) {
+  core::Transform<core::frames::Tool, core::frames::Tool> shaken;
+  for (const Fault& fault : faults) {
+    if (fault.kind != FaultKind::kVibration || time_s < fault.at_s ||
+        time_s >= fault.at_s + fault.for_s) {
+      continue;
+    }
+    // Each axis swings at a frequency and phase of its own, so that the tip draws no line; all
+    // begin and end gently, in a twentieth of a second, as a struck arm does.
+    constexpr double kRise_s = 0.05;
+    const double since_s = time_s - fault.at_s;
+    const double left_s = fault.at_s + fault.for_s - time_s;
+    const double envelope = std::min({1.0, since_s / kRise_s, left_s / kRise_s});
+    std::array<double, 3> by{};
+    std::array<double, 3> turn{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double number = static_cast<double>(i);
+      const double angle_rad = 2.0 * kPi * fault.frequency_hz * since_s;
+      by[i] = envelope * fault.shake_mm[i] * std::sin(angle_rad * (1.0 + 0.13 * number) + number);
+      turn[i] =
+          envelope * fault.shake_deg[i] * std::cos(angle_rad * (1.07 - 0.11 * number) + number);
+    }
+    shaken = shaken * core::Transform<core::frames::Tool, core::frames::Tool>(
+                          core::rotation_from_degrees({turn[2], turn[1], turn[0]}),
+                          Eigen::Vector3d(by[0], by[1], by[2]));
+  }
+  return shaken;
+}
+
+}  // namespace tubesight::drivers

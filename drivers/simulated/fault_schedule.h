@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/base/frames.h"
+#include "core/base/transform.h"
+#include "drivers/simulated/fault.h"
+
+namespace tubesight::drivers {
+
+/// When a field is exposed, by the camera's own clock.
+struct FieldSlot {
+  double time_s = 0.0;        ///< nominal mid-exposure
+  double frame_time_s = 0.0;  ///< that of the frame's first field: whole frames go by it
+  double period_s = 0.0;      ///< from field to field
+};
+
+/// All that the faults do to one field.
+struct FieldFaults {
+  std::uint32_t kinds = 0;  ///< bit n: FaultKind n is at work
+  bool lost = false;        ///< dropped or cut: the field is not delivered
+  bool unnumbered = false;  ///< lost, and the sequence does not show it
+  bool damaged = false;     ///< the driver says so
+  bool repeated = false;
+  bool swapped = false;
+  bool snow = false;
+  std::optional<double> torn_after;    ///< share of the lines that are new
+  std::optional<std::uint8_t> filled;  ///< grey value
+  double lamp = 1.0;                   ///< share of the light commanded
+  std::uint16_t dead_lamps = 0;
+  core::Transform<core::frames::Camera, core::frames::Camera>
+      knock{};  ///< rotation of what is seen
+  bool knocked = false;
+  std::array<std::int32_t, 2> jump{};  ///< lattice steps, rows and columns
+  double emi_share = 0.0;
+  double emi_amplitude = 0.0;
+  double salt_pepper_share = 0.0;
+
+  [[nodiscard]] constexpr bool has(FaultKind kind) const {
+    return ((kinds >> static_cast<unsigned>(kind)) & 1U) != 0;
+  }
+};
+
+/// What `faults` do to the field of a slot. Several of a kind add up: lamps and shares multiply,
+/// knocks, jumps and shakes follow each other.
+[[nodiscard]] FieldFaults faults_of(std::span<const Fault> faults, const FieldSlot& slot);
+
+/// How the faults shake the tool at an instant: T_tool_shaken, the identity without vibration.
+[[nodiscard]] core::Transform<core::frames::Tool, core::frames::Tool> shake_at(
+    std::span<const Fault> faults, double time_s);
+
+}  // namespace tubesight::drivers

@@ -1,0 +1,242 @@
+#include "drivers/simulated/simulated_robot.h"
+
+#include <cmath>
+#include <memory>
+
+#include "core/base/trigonometry.h"
+#include "core/rendering/scene.h"
+
+namespace tubesight::drivers {
+namespace {
+
+using core::Error;
+using core::Event;
+using core::EventKind;
+using core::Reply;
+using core::Result;
+using core::Transform;
+using core::TubeAddress;
+using core::Unexpected;
+using core::kinematics::InverseOptions;
+using core::kinematics::JointVector;
+using core::kinematics::PathSegment;
+using core::kinematics::ToolPlace;
+
+using SheetTool = Transform<core::frames::Sheet, core::frames::Tool>;
+
+/// Before the first instant that a world can ask for.
+constexpr double kBeforeAll_s = -1e6;
+
+/// Following a path, the arm must not change its configuration.
+constexpr InverseOptions follow() {
+  InverseOptions options;
+  options.restarts = 0;
+  return options;
+}
+
+ToolPlace place_of(const SheetTool& pose) {
+  const auto& R = pose.rotation();
+  const double degrees = 180.0 / core::kPi;
+  return {pose.translation_mm().x(),     pose.translation_mm().y(),
+          -pose.translation_mm().z(),    degrees * std::atan2(R(1, 0), R(0, 0)),
+          degrees * std::asin(-R(2, 0)), degrees * std::atan2(R(2, 1), R(2, 2))};
+}
+
+}  // namespace
+
+Result<void> SimulatedRobot::configure(const SimulatedRobotSettings& settings,
+                                       const core::TubesheetSettings& sheet) {
+  const auto scene = std::make_unique<core::rendering::Scene>();
+  scene->sheet = sheet;
+  TUBESIGHT_TRY(tubes_.configure(*scene));
+  const auto truth = core::kinematics::true_arm(settings.believed, settings.errors);
+  if (!truth) {
+    return Unexpected(truth.error());
+  }
+  TUBESIGHT_TRY(path_.begin(settings.home));
+  const auto home =
+      core::kinematics::reach(settings.believed, transform_of(settings.home), settings.near_rad);
+  if (!home) {
+    return Unexpected(home.error());
+  }
+  settings_ = settings;
+  believed_ = settings.believed;
+  true_ = *truth;
+  shafts_rad_ = home->angles_rad;
+  end_rad_ = home->angles_rad;
+  drive_.reset(settings.errors.drive, home->angles_rad);
+  path_zero_s_ = 0.0;
+  now_s_ = kBeforeAll_s;
+  next_claim_s_ = settings.claim_period_s;
+  stuck_ = false;
+  messages_.clear();
+  heard_ = {};
+  return {};
+}
+
+Result<void> SimulatedRobot::move_to(TubeAddress tube) {
+  PathSegment segment;
+  segment.kind = core::kinematics::SegmentKind::kMove;
+  segment.to_mm = tubes_.lattice_point(tube);
+  segment.shape = settings_.shape;
+  segment.limits = settings_.limits;
+  return add(segment);
+}
+
+Result<void> SimulatedRobot::add(const PathSegment& segment) {
+  if (at_rest()) {
+    // The path begins anew, so that it never runs full and hours at rest are no part of it.
+    TUBESIGHT_TRY(path_.begin(ToolPlace(path_.end())));
+    path_zero_s_ = now_s_ > 0.0 ? now_s_ : 0.0;
+  }
+  if (segment.kind == core::kinematics::SegmentKind::kJump) {
+    return Unexpected(Error::kInvalidArgument);
+  }
+  const auto end = walk(path_.end(), end_of(segment, path_.end()));
+  if (!end) {
+    return Unexpected(end.error());
+  }
+  TUBESIGHT_TRY(path_.add(segment));
+  end_rad_ = *end;
+  return {};
+}
+
+/// The joints' angles at the end of a straight way from where the commands so far end, by small
+/// steps: all of it must be within reach, and the elbow stays on its side.
+Result<JointVector> SimulatedRobot::walk(const ToolPlace& from, const ToolPlace& to) const {
+  constexpr double kStep_mm = 50.0;
+  constexpr double kStep_deg = 10.0;
+  constexpr double kFarthest_mm = 1e5;  // beyond any arm; keeps the steps a small number
+  const double way_mm = std::hypot(to.x_mm - from.x_mm, to.y_mm - from.y_mm) +
+                        std::abs(to.height_mm - from.height_mm) +
+                        kStep_mm / kStep_deg * std::abs(to.alpha_deg - from.alpha_deg);
+  if (!(way_mm <= kFarthest_mm)) {
+    return Unexpected(Error::kOutOfRange);
+  }
+  const auto steps = static_cast<int>(way_mm / kStep_mm) + 1;
+  JointVector angles = end_rad_;
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    const auto between = [share](double a, double b) { return a + share * (b - a); };
+    const ToolPlace place{
+        between(from.x_mm, to.x_mm),           between(from.y_mm, to.y_mm),
+        between(from.height_mm, to.height_mm), between(from.alpha_deg, to.alpha_deg),
+        between(from.beta_deg, to.beta_deg),   between(from.gamma_deg, to.gamma_deg)};
+    const auto next = core::kinematics::reach(believed_, transform_of(place), angles, follow());
+    if (!next) {
+      return Unexpected(next.error());
+    }
+    angles = next->angles_rad;
+  }
+  return angles;
+}
+
+bool SimulatedRobot::say(EventKind kind) {
+  Event event;
+  event.kind = kind;
+  return say(event);
+}
+
+JointVector SimulatedRobot::shafts_at(double time_s) {
+  const SheetTool wanted = path_.state_at(time_s - path_zero_s_).T_sheet_tool;
+  auto solution = core::kinematics::reach(believed_, wanted, shafts_rad_, follow());
+  if (!solution) {
+    // A long time has passed since the last instant: too far to follow in one step.
+    solution = core::kinematics::reach(believed_, wanted, settings_.near_rad);
+  }
+  stuck_ = stuck_ || !solution;
+  return solution ? solution->angles_rad : shafts_rad_;
+}
+
+SheetTool SimulatedRobot::pose_at(double time_s) {
+  const JointVector shafts = shafts_at(time_s);
+  if (time_s < now_s_) {
+    core::kinematics::JointDrive past = drive_;
+    past.turn_to(shafts);
+    return core::kinematics::tool_pose(true_, past.links_rad());
+  }
+  now_s_ = time_s;
+  shafts_rad_ = shafts;
+  drive_.turn_to(shafts);
+  claim_when_due();
+  return core::kinematics::tool_pose(true_, drive_.links_rad());
+}
+
+void SimulatedRobot::claim_when_due() {
+  if (settings_.claim_period_s <= 0.0 || now_s_ < next_claim_s_) {
+    return;
+  }
+  while (next_claim_s_ <= now_s_) {
+    next_claim_s_ += settings_.claim_period_s;
+  }
+  if (const auto tube = believed_tube()) {
+    Event event;
+    event.kind = EventKind::kClaim;
+    event.claim = *tube;
+    say(event);  // a controller whose line is stopped up says no more
+  }
+}
+
+SheetTool SimulatedRobot::believed_pose() const {
+  return core::kinematics::tool_pose(believed_, drive_.readings_rad());
+}
+
+std::optional<TubeAddress> SimulatedRobot::believed_tube() const {
+  // Where the guidetube's axis meets the sheet, as the box sees it too.
+  const SheetTool pose = believed_pose();
+  const auto& tip = pose.translation_mm();
+  const auto axis = pose.rotation().col(2);
+  if (!(axis.z() > 0.1)) {
+    return std::nullopt;
+  }
+  const double way_mm = -tip.z() / axis.z();
+  const auto nearest = tubes_.nearest({tip.x() + way_mm * axis.x(), tip.y() + way_mm * axis.y()});
+  if (nearest.kind == core::rendering::TubeEndKind::kVoid) {
+    return std::nullopt;
+  }
+  return nearest.address;
+}
+
+Result<void> SimulatedRobot::correct_base(const SheetTool& seen) {
+  if (!at_rest()) {
+    return Unexpected(Error::kNotReady);
+  }
+  const auto T_base_tool = believed_.T_sheet_base.inverse() * believed_pose();
+  believed_.T_sheet_base = seen * T_base_tool.inverse();
+  // The shafts stay; where they put the tool in the believed sheet is another place now.
+  const SheetTool here = core::kinematics::tool_pose(believed_, shafts_rad_);
+  TUBESIGHT_TRY(path_.begin(place_of(here)));
+  path_zero_s_ = now_s_;
+  end_rad_ = shafts_rad_;
+  return {};
+}
+
+std::optional<Event> SimulatedRobot::take_message() {
+  if (messages_.empty()) {
+    return std::nullopt;
+  }
+  const Event first = messages_[0];
+  for (std::int32_t i = 1; i < messages_.size(); ++i) {
+    messages_[i - 1] = messages_[i];
+  }
+  messages_.truncate(messages_.size() - 1);
+  return first;
+}
+
+void SimulatedRobot::hear(const Event& asked, const Reply& reply) {
+  ++heard_.replies;
+  if (reply.kind == EventKind::kPoseRequest || reply.kind == EventKind::kPoseResult) {
+    heard_.last_pose = reply;
+  }
+  if (reply.kind != EventKind::kClaim) {
+    return;
+  }
+  heard_.last_claim = {asked, reply};
+  heard_.confirmed += reply.verdict == Reply::Verdict::kConfirmed ? 1 : 0;
+  heard_.contradicted += reply.verdict == Reply::Verdict::kContradicted ? 1 : 0;
+  heard_.unknown += reply.verdict == Reply::Verdict::kUnknown ? 1 : 0;
+}
+
+void SimulatedRobot::hear(const core::Sighting& /*sighting*/) { ++heard_.sightings; }
+
+}  // namespace tubesight::drivers

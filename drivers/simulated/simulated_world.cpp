@@ -1,0 +1,319 @@
+#include "drivers/simulated/simulated_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Core>
+
+#include "drivers/simulated/dice.h"
+
+namespace tubesight::drivers {
+namespace {
+
+using core::Error;
+using core::Parity;
+using core::Result;
+using core::Unexpected;
+
+/// Shorter exposures are pictures of an instant; for the speed some time must pass.
+constexpr double kShortest_s = 1e-4;
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
+double seconds(core::FieldTime time) { return static_cast<double>(time.count()) * 1e-9; }
+
+std::array<double, 2> steps_mm(const core::TubesheetSettings& sheet,
+                               const std::array<std::int32_t, 2>& by) {
+  return {by[0] * sheet.row_step_mm[0] + by[1] * sheet.column_step_mm[0],
+          by[0] * sheet.row_step_mm[1] + by[1] * sheet.column_step_mm[1]};
+}
+
+core::rendering::PixelWindow window_of(const Scenario& scenario) {
+  const std::int32_t margin = scenario.video.window_margin_px;
+  const auto& [left, top, right, bottom] = scenario.told.start.window_px;
+  const std::int32_t last_u = scenario.scene.camera.width_px - 1;
+  const std::int32_t last_v = scenario.scene.camera.height_px - 1;
+  if (margin < 0) {
+    return {0, 0, last_u, last_v};
+  }
+  return {std::max(left - margin, 0), std::max(top - margin, 0), std::min(right + margin, last_u),
+          std::min(bottom + margin, last_v)};
+}
+
+}  // namespace
+
+Result<void> SimulatedWorld::configure(const Scenario& scenario) {
+  const SimulatedVideo& video = scenario.video;
+  interlaced_ = scenario.scene.camera.scan != core::Scan::kProgressive;
+  const std::int64_t fields_a_frame = interlaced_ ? 2 : 1;
+  if (video.rate_numerator <= 0 || video.rate_denominator <= 0 || video.exposure_s < 0.0 ||
+      video.exposure_s * static_cast<double>(video.rate_numerator * fields_a_frame) >
+          static_cast<double>(video.rate_denominator)) {
+    return Unexpected(Error::kInvalidArgument);
+  }
+  TUBESIGHT_TRY(renderer_.configure(scenario.scene));
+  TUBESIGHT_TRY(truth_.configure(scenario.scene));
+  TUBESIGHT_TRY(path_.begin(scenario.from));
+  for (const core::kinematics::PathSegment& segment : scenario.path) {
+    TUBESIGHT_TRY(path_.add(segment));
+  }
+  TUBESIGHT_TRY(make_robot(scenario));
+  scenario_ = &scenario;
+  const auto pixels = static_cast<std::size_t>(scenario.scene.camera.width_px) *
+                      static_cast<std::size_t>(scenario.scene.camera.height_px);
+  frame_.assign(pixels, 0);
+  kept_.assign(pixels, 0);
+  window_ = window_of(scenario);
+  const double length_s = video.length_s > 0.0 ? video.length_s : path_.duration_s();
+  const double frames = std::ceil(length_s * static_cast<double>(video.rate_numerator) /
+                                      static_cast<double>(video.rate_denominator) -
+                                  1e-6);
+  slots_ = fields_a_frame * std::max<std::int64_t>(1, std::llround(frames));
+  slot_ = 0;
+  unnumbered_ = 0;
+  events_taken_ = 0;
+  started_ = false;
+  lamp_permille_ = scenario.light.lamp_permille;
+  shine_ = lamp_permille_ / 1000.0;
+  return {};
+}
+
+Result<void> SimulatedWorld::make_robot(const Scenario& scenario) {
+  const bool steered = motion_ != nullptr && motion_ != robot_.get();
+  if (!steered) {
+    motion_ = nullptr;
+  }
+  robot_.reset();
+  if (!scenario.robot) {
+    return {};
+  }
+  robot_ = std::make_unique<SimulatedRobot>();
+  SimulatedRobotSettings settings = *scenario.robot;
+  settings.home = scenario.from;
+  TUBESIGHT_TRY(robot_->configure(settings, scenario.told.tubesheet));
+  for (const core::kinematics::PathSegment& segment : scenario.path) {
+    TUBESIGHT_TRY(robot_->add(segment));
+  }
+  if (!steered) {
+    motion_ = robot_.get();
+  }
+  return {};
+}
+
+core::FieldTime SimulatedWorld::slot_time(std::int64_t slot) const {
+  // slot * period, rounded half up to the nanosecond: whole seconds apart, so that nothing
+  // overflows.
+  const std::int64_t rate = scenario_->video.rate_numerator * (interlaced_ ? 2 : 1);
+  const std::int64_t ticks = slot * scenario_->video.rate_denominator;
+  const std::int64_t whole = ticks / rate;
+  const std::int64_t rest = ticks % rate;
+  return core::FieldTime(whole * kSecond_ns + (2 * rest * kSecond_ns + rate) / (2 * rate));
+}
+
+FieldSlot SimulatedWorld::slot_at(std::int64_t slot) const {
+  const std::int64_t first = interlaced_ ? slot - slot % 2 : slot;
+  return {seconds(slot_time(slot)), seconds(slot_time(first)), seconds(slot_time(1))};
+}
+
+Parity SimulatedWorld::parity_of(std::int64_t slot) const {
+  if (!interlaced_) {
+    return Parity::kProgressive;
+  }
+  const bool odd_first = scenario_->scene.camera.scan == core::Scan::kOddFirst;
+  return (slot % 2 != 0) != odd_first ? Parity::kOdd : Parity::kEven;
+}
+
+SimulatedWorld::SheetTool SimulatedWorld::pose_at(double time_s, const FieldFaults& faults) {
+  const SheetTool pose =
+      motion_ != nullptr ? motion_->pose_at(time_s) : path_.state_at(time_s).T_sheet_tool;
+  const auto jump_mm = steps_mm(scenario_->scene.sheet, faults.jump);
+  const core::Transform<core::frames::Sheet, core::frames::Sheet> jump(
+      Eigen::Matrix3d::Identity(), Eigen::Vector3d(jump_mm[0], jump_mm[1], 0.0));
+  return jump * pose * shake_at(scenario_->faults, time_s);
+}
+
+FieldPixels SimulatedWorld::pixels_of(Parity parity) {
+  const core::FieldView view = core::field_of(frame(), parity);
+  return {frame_.data() + (view.pixels - frame_.data()), view.width_px, view.lines, view.stride_px};
+}
+
+core::ImageView SimulatedWorld::frame() const {
+  const core::CameraSettings& camera = scenario_->scene.camera;
+  return {frame_.data(), camera.width_px, camera.height_px, camera.width_px};
+}
+
+void SimulatedWorld::take_events(double time_s, core::EventList& events) {
+  const core::StartSettings& start = scenario_->told.start;
+  if (!started_ && !start.tubes.empty()) {
+    core::Event event;
+    event.kind = core::EventKind::kStart;
+    event.start = start.tubes;
+    static_cast<void>(events.try_push_back(event));  // the first of all
+  }
+  started_ = true;
+  const auto& all = scenario_->events;
+  // What does not fit is handed over before the next field.
+  while (events_taken_ < all.size() && all[events_taken_].at_s <= time_s + 1e-9 &&
+         events.try_push_back(all[events_taken_].event)) {
+    ++events_taken_;
+  }
+  while (robot_ != nullptr && motion_ == robot_.get() && !events.full()) {
+    const auto message = robot_->take_message();
+    if (!message) {
+      break;
+    }
+    static_cast<void>(events.try_push_back(*message));  // there is room
+  }
+}
+
+bool SimulatedWorld::next(SimulatedField& out) {
+  while (next_slot(out)) {
+    if (!out.lost) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool SimulatedWorld::next_slot(SimulatedField& out) {
+  if (slot_ >= slots_) {
+    return false;
+  }
+  const FieldSlot slot = slot_at(slot_);
+  out.faults = faults_at(slot_);
+  out.slot = slot_;
+  out.lost = out.faults.lost;
+  out.lamp_permille = lamp_permille_;
+  out.events.clear();
+  out.field.parity = parity_of(slot_);
+  out.field.status =
+      out.lost || out.faults.damaged ? core::FieldStatus::kDamaged : core::FieldStatus::kGood;
+  out.field.sequence = slot_ - unnumbered_;
+  out.field.mid_exposure = slot_time(slot_);
+  if (!out.lost) {
+    take_events(slot.time_s, out.events);
+  }
+  warm_lamp();
+  Shutter shutter;
+  out.truth = look(slot_, out.faults, shutter);
+  if (!out.lost) {
+    expose(shutter, out);
+  }
+  out.field.pixels = core::field_of(frame(), out.field.parity);
+  if (out.lost && out.faults.unnumbered) {
+    ++unnumbered_;
+  }
+  follow_lamp_commands(out.events);
+  ++slot_;
+  return true;
+}
+
+FieldFaults SimulatedWorld::faults_at(std::int64_t slot) const {
+  return faults_of(scenario_->faults, slot_at(slot));
+}
+
+FieldTruth SimulatedWorld::truth_of(std::int64_t slot) {
+  Shutter ignored;
+  return look(slot, faults_at(slot), ignored);
+}
+
+/// The tool while the shutter is open, and what is true in the middle.
+FieldTruth SimulatedWorld::look(std::int64_t number, const FieldFaults& faults, Shutter& shutter) {
+  const FieldSlot slot = slot_at(number);
+  double middle_s = slot.time_s;
+  if (faults.swapped && interlaced_) {
+    middle_s = number % 2 == 0 ? slot.time_s + slot.period_s : slot.frame_time_s;
+  }
+  const double open_s = scenario_->video.exposure_s;
+  const double span_s = std::max(open_s, kShortest_s);
+  FieldTruth truth;
+  shutter.opened_s = middle_s - span_s / 2.0;
+  shutter.closed_s = middle_s + span_s / 2.0;
+  shutter.opened = pose_at(shutter.opened_s, faults);
+  truth.T_sheet_tool = pose_at(middle_s, faults);
+  shutter.closed = pose_at(shutter.closed_s, faults);
+  truth.speed_mm_s =
+      (shutter.closed.translation_mm() - shutter.opened.translation_mm()).norm() / span_s;
+  if (open_s < kShortest_s) {
+    shutter.opened = shutter.closed = truth.T_sheet_tool;
+  }
+  truth.T_camera_sheet = truth_.T_camera_sheet(truth.T_sheet_tool, faults.knock);
+  const auto axis = truth_.axis(truth.T_sheet_tool);
+  truth.axis_known = axis.has_value();
+  truth.axis = axis.value_or(core::rendering::AxisTruth{});
+  truth.jumped = faults.has(FaultKind::kJump);
+  return truth;
+}
+
+void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {
+  const double duty = shine_;
+  const double pwm_hz = scenario_->light.pwm_hz;
+  const double light = pwm_hz > 0.0 ? core::rendering::pulsed_light(
+                                          duty, 1.0 / pwm_hz, shutter.opened_s, shutter.closed_s)
+                                    : duty;
+  core::rendering::Exposure exposure;
+  exposure.opened = shutter.opened;
+  exposure.closed = shutter.closed;
+  exposure.lamp = light * out.faults.lamp;
+  exposure.dead_lamps = out.faults.dead_lamps;
+  exposure.ring = scenario_->light.ring;
+  exposure.knock = out.faults.knock;
+  exposure.parity = out.field.parity;
+  exposure.noise_seed = derived_seed(scenario_->seed, static_cast<std::uint64_t>(out.slot));
+  exposure.window = window_;
+  draw(exposure, out.faults);
+}
+
+void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const FieldFaults& faults) {
+  if (faults.repeated) {
+    return;
+  }
+  const FieldPixels field = pixels_of(exposure.parity);
+  Dice dice(derived_seed(exposure.noise_seed, 1));
+  if (faults.filled) {
+    fill(field, *faults.filled);
+    return;
+  }
+  if (faults.snow) {
+    snow(field, dice);
+    return;
+  }
+  const auto width = static_cast<std::size_t>(field.width_px);
+  const std::int32_t kept_from =
+      faults.torn_after ? static_cast<std::int32_t>(std::lround(*faults.torn_after * field.lines))
+                        : field.lines;
+  for (std::int32_t line = kept_from; line < field.lines; ++line) {
+    std::copy_n(field.line(line), width, kept_.data() + static_cast<std::size_t>(line) * width);
+  }
+  const core::CameraSettings& camera = scenario_->scene.camera;
+  renderer_.render(exposure, {frame_.data(), camera.width_px, camera.height_px, camera.width_px});
+  if (faults.emi_share > 0.0) {
+    disturb_lines(field, faults.emi_share, faults.emi_amplitude, dice);
+  }
+  if (faults.salt_pepper_share > 0.0) {
+    salt_and_pepper(field, faults.salt_pepper_share, dice);
+  }
+  for (std::int32_t line = kept_from; line < field.lines; ++line) {
+    std::copy_n(kept_.data() + static_cast<std::size_t>(line) * width, width, field.line(line));
+  }
+}
+
+/// A lag of the first order over one field.
+void SimulatedWorld::warm_lamp() {
+  const double period_s = seconds(slot_time(1));
+  const double level = lamp_permille_ / 1000.0;
+  const double lag_s = scenario_->light.lag_s;
+  shine_ = lag_s > 0.0 ? shine_ + (level - shine_) * (period_s / (period_s + lag_s)) : level;
+}
+
+/// A dimmer that obeys the robot: a level asked for before a field is in force from the next one.
+void SimulatedWorld::follow_lamp_commands(const core::EventList& events) {
+  for (const core::Event& event : events) {
+    if (event.kind == core::EventKind::kLampCommand) {
+      lamp_permille_ = event.lamp_permille;
+    }
+  }
+}
+
+}  // namespace tubesight::drivers
