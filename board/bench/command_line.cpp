@@ -1,6 +1,7 @@
 #include "board/bench/command_line.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -11,6 +12,8 @@
 #include "board/bench/pose_options.h"
 #include "board/bench/replay_command.h"
 #include "board/bench/replay_options.h"
+#include "board/bench/simulate_command.h"
+#include "board/bench/simulate_options.h"
 
 namespace tubesight::board {
 namespace {
@@ -124,6 +127,29 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   return pose;
 }
 
+CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
+  CLI::App* const simulate = app.add_subcommand(
+      "simulate", "A steam generator on the bench: a recording of a scenario, with its truth");
+  simulate
+      ->add_option("SCENARIO.toml", options.scenario,
+                   "What is seen, how the tool moves, what goes wrong (TOML)")
+      ->required();
+  simulate
+      ->add_option("--out", options.out,
+                   "Write NAME.y4m, NAME.meta.csv, NAME.events.csv, NAME.truth.csv, "
+                   "NAME.centers.csv and NAME.session.toml")
+      ->option_text("NAME")
+      ->required();
+  simulate
+      ->add_option("--seed", options.seed,
+                   "Seed of noise, clicks and stopping places in the place of the scenario's")
+      ->option_text("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{2147483647}));
+  simulate->add_flag("--window-only", options.window_only,
+                     "Draw the search window and a margin alone; the rest stays black");
+  return simulate;
+}
+
 /// Help and version, or one line about what is wrong.
 ExitStatus answer(const CLI::App& app, const CLI::ParseError& problem) {
   if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
@@ -146,6 +172,8 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const replay = add_replay(app, options, scalar);
   PoseCommandOptions pose_options;
   const CLI::App* const pose = add_pose(app, pose_options);
+  SimulateOptions simulate_options;
+  const CLI::App* const simulate = add_simulate(app, simulate_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -153,6 +181,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   }
   if (pose->parsed()) {
     return run_pose(pose_options);
+  }
+  if (simulate->parsed()) {
+    return run_simulate(simulate_options);
   }
   options.scalar = kScalars.at(scalar);
   return replay->parsed() ? run_replay(options) : ExitStatus::kWrongInput;

@@ -8,6 +8,8 @@ int main(int argc, char** argv) {
   using tubesight::board::ExitStatus;
   // A reader that goes away is told as a failed write, not by the end of the program.
   std::signal(SIGPIPE, SIG_IGN);
+  // So is a file that grows beyond what the system allows.
+  std::signal(SIGXFSZ, SIG_IGN);
   ExitStatus status = ExitStatus::kJobFailed;
   try {
     status = tubesight::board::run_command_line(argc, argv);

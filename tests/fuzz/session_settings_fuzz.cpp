@@ -8,7 +8,8 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "tests/fuzz/cut_files.h"
 
 namespace {
 
@@ -19,36 +20,6 @@ void require(bool holds) {
     std::abort();
   }
 }
-
-class CutFiles final : public drivers::TextFiles {
- public:
-  explicit CutFiles(std::string_view text) {
-    constexpr std::string_view kCut = "#---\n";
-    while (true) {
-      const std::size_t end = text.find(kCut);
-      parts_.push_back(text.substr(0, end));
-      if (end == std::string_view::npos) {
-        break;
-      }
-      text.remove_prefix(end + kCut.size());
-    }
-  }
-
-  core::Result<void> read(const std::string& path, std::string& text,
-                          std::string& message) override {
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      if (path == (i == 0 ? "session.toml" : std::to_string(i) + ".toml")) {
-        text = parts_[i];
-        return {};
-      }
-    }
-    message = "No such file or directory";
-    return core::Unexpected(core::Error::kIo);
-  }
-
- private:
-  std::vector<std::string_view> parts_;
-};
 
 void check(const core::SessionSettings& settings) {
   const auto& window = settings.start.window_px;
@@ -65,7 +36,7 @@ void check(const core::SessionSettings& settings) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto session = std::make_unique<drivers::SessionFile>();
   drivers::Messages messages;
-  CutFiles files({reinterpret_cast<const char*>(data), size});
+  fuzz::CutFiles files({reinterpret_cast<const char*>(data), size}, "session.toml");
   const bool good = drivers::load_session_settings(files, "session.toml", drivers::kReplayNeeds,
                                                    *session, messages)
                         .has_value();

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/system/csv_rows.h"
 #include "tests/system/program.h"
 
 namespace tubesight::tests {
@@ -44,39 +45,6 @@ std::string first_difference(const std::string& expected, const std::string& act
     }
   }
 }
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<Row> read_rows(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::vector<std::string> names;
-  std::vector<Row> rows;
-  while (std::getline(lines, line)) {
-    std::vector<std::string> cells;
-    std::string cell;
-    for (const char c : line + ",") {
-      if (c == ',') {
-        cells.push_back(cell);
-        cell.clear();
-      } else {
-        cell += c;
-      }
-    }
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    Row row;
-    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) {
-      row[names[i]] = cells[i];
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-double number(const Row& row, const std::string& name) { return std::atof(row.at(name).c_str()); }
 
 struct Results {
   std::string fields;

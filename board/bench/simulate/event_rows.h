@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/event.h"
+#include "core/base/field.h"
+
+namespace tubesight::board {
+
+/// First line of a `NAME.events.csv`, without the line feed.
+inline constexpr std::string_view kEventsHeader = "field,time_s,kind,values";
+
+/// First line of a `NAME.meta.csv`, without the line feed.
+inline constexpr std::string_view kMetaHeader = "field,sequence,time_s,status,lamp_permille";
+
+/// Appends the row of an event that is handed over before the field of that number.
+void append_event_row(std::string& out, std::int64_t field, core::FieldTime time,
+                      const core::Event& event);
+
+/// Appends the row of a field.
+void append_meta_row(std::string& out, std::int64_t number, const core::Field& field,
+                     std::int32_t lamp_permille);
+
+}  // namespace tubesight::board

@@ -1,0 +1,55 @@
+#include "board/bench/simulate/lattice_geometry.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace tubesight::board {
+
+using core::TubeAddress;
+
+std::array<double, 2> lattice_place(const core::TubesheetSettings& sheet,
+                                    const std::array<double, 2>& point_mm) {
+  const auto& r = sheet.row_step_mm;
+  const auto& c = sheet.column_step_mm;
+  const double x = point_mm[0] - sheet.origin_mm[0];
+  const double y = point_mm[1] - sheet.origin_mm[1];
+  const double area = r[0] * c[1] - r[1] * c[0];
+  return {(x * c[1] - y * c[0]) / area, (r[0] * y - r[1] * x) / area};
+}
+
+std::array<double, 2> tube_place(const core::TubesheetSettings& sheet, TubeAddress address) {
+  std::array<double, 2> place = sheet.origin_mm;
+  for (std::size_t i = 0; i < 2; ++i) {
+    place[i] += address.row * sheet.row_step_mm[i] + address.column * sheet.column_step_mm[i];
+  }
+  return place;
+}
+
+TubeAddress nearest_address(const core::TubesheetSettings& sheet,
+                            const std::array<double, 2>& point_mm) {
+  const auto at = lattice_place(sheet, point_mm);
+  const auto row = static_cast<std::int32_t>(std::lround(at[0]));
+  const auto column = static_cast<std::int32_t>(std::lround(at[1]));
+  TubeAddress nearest{row, column};
+  double least = -1.0;
+  // Oblique steps: the nearest is among the neighbours of the rounded place.
+  for (std::int32_t r = row - 2; r <= row + 2; ++r) {
+    for (std::int32_t c = column - 2; c <= column + 2; ++c) {
+      const bool odd = ((r + c) % 2) != 0;
+      if ((sheet.addresses == core::AddressParity::kEvenSum && odd) ||
+          (sheet.addresses == core::AddressParity::kOddSum && !odd)) {
+        continue;
+      }
+      const auto place = tube_place(sheet, {r, c});
+      const double distance = std::hypot(place[0] - point_mm[0], place[1] - point_mm[1]);
+      if (least < 0.0 || distance < least) {
+        least = distance;
+        nearest = {r, c};
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+
+#include "core/base/settings.h"
+#include "core/base/tube_address.h"
+
+namespace tubesight::board {
+
+/// The lattice's coordinates of a point of the sheet: row and column, with fractions.
+[[nodiscard]] std::array<double, 2> lattice_place(const core::TubesheetSettings& sheet,
+                                                  const std::array<double, 2>& point_mm);
+
+/// Centre of a tube by the lattice, sheet frame.
+[[nodiscard]] std::array<double, 2> tube_place(const core::TubesheetSettings& sheet,
+                                               core::TubeAddress address);
+
+/// The address of the lattice that exists by parity and is nearest to a point of the sheet.
+[[nodiscard]] core::TubeAddress nearest_address(const core::TubesheetSettings& sheet,
+                                                const std::array<double, 2>& point_mm);
+
+}  // namespace tubesight::board

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/settings.h"
+#include "drivers/settings/settings_document.h"
+#include "drivers/simulated/fault.h"
+
+namespace tubesight::board {
+
+/// What faults are judged against.
+struct FaultContext {
+  double length_s = 0.0;  ///< of the recording; 0: not known, nothing is checked against it
+  bool interlaced = true;
+  core::AddressParity addresses = core::AddressParity::kAll;
+};
+
+/// Reads each `[[fault]]` into `faults`, replacing them. Says whether all was well.
+bool read_faults(drivers::SettingsDocument& document, const FaultContext& context,
+                 std::vector<drivers::Fault>& faults);
+
+}  // namespace tubesight::board

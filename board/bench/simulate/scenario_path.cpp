@@ -1,0 +1,363 @@
+#include "board/bench/simulate/scenario_path.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "board/bench/simulate/lattice_geometry.h"
+#include "drivers/settings/read_table.h"
+#include "drivers/settings/session_checks.h"
+#include "drivers/settings/table_reader.h"
+#include "drivers/simulated/dice.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::TubeAddress;
+using core::kinematics::PathSegment;
+using core::kinematics::SegmentKind;
+using core::kinematics::ToolPlace;
+using drivers::NumberRange;
+using drivers::TableReader;
+
+constexpr NumberRange kPlace{-drivers::kLargestSheet_mm, drivers::kLargestSheet_mm, " mm"};
+constexpr NumberRange kOffset{-100.0, 100.0, " mm"};
+constexpr NumberRange kHeight{0.0, 300.0, " mm"};
+constexpr NumberRange kHeading{-360.0, 360.0, " degrees"};
+constexpr NumberRange kLean{-10.0, 10.0, " degrees"};
+constexpr NumberRange kRest{0.0, 86400.0, " s"};
+constexpr NumberRange kSpeed{0.1, 5000.0, " mm/s"};
+constexpr NumberRange kAcceleration{1.0, 1000000.0, " mm/s2"};
+constexpr NumberRange kJerk{1.0, 1e9, " mm/s3"};
+constexpr NumberRange kTurnSpeed{0.01, 3600.0, " deg/s"};
+constexpr NumberRange kTurnAcceleration{0.01, 1e6, " deg/s2"};
+constexpr NumberRange kTurnJerk{0.01, 1e9, " deg/s3"};
+constexpr NumberRange kScatter{0.0, 10.0, " mm"};
+constexpr std::array<std::string_view, 2> kShapes = {"trapezoid", "s-curve"};
+
+/// What a step may do: the key that says so.
+constexpr std::array<std::string_view, 8> kActions = {
+    "rest_s", "to", "to_mm", "height_mm", "dock_mm", "heading_deg", "lean_deg", "tour"};
+/// How a step does it.
+constexpr std::array<std::string_view, 12> kManners = {
+    "claim",       "claim_tube",          "pause_s",
+    "at_most",     "offset_mm",           "profile",
+    "speed_mm_s",  "acceleration_mm_s2",  "jerk_mm_s3",
+    "speed_deg_s", "acceleration_deg_s2", "jerk_deg_s3"};
+constexpr const char* kOneAction =
+    "one of rest_s, to, to_mm, height_mm, dock_mm, heading_deg, lean_deg, tour";
+
+std::string rounded(double value) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5).ptr;
+  return {text, end};
+}
+
+std::string place_text(const std::array<double, 2>& point_mm) {
+  return "(" + rounded(point_mm[0]) + ", " + rounded(point_mm[1]) + ") mm";
+}
+
+}  // namespace
+
+PathReader::PathReader(const core::TubesheetSettings& sheet, std::uint64_t seed,
+                       drivers::Scenario& scenario)
+    : sheet_(&sheet),
+      scenario_(&scenario),
+      path_(std::make_unique<core::kinematics::ToolPath>()),
+      seed_(drivers::derived_seed(seed, 0x9A7F)) {}
+
+PathReader::~PathReader() = default;
+
+bool PathReader::read(drivers::SettingsDocument& document) {
+  scenario_->path.clear();
+  scenario_->events.clear();
+  const bool start =
+      drivers::read_table(document, "path", true, [&](TableReader& table) { read_start(table); });
+  if (!start) {
+    return false;  // where the steps lead cannot be told
+  }
+  return drivers::read_each_table(document, "step",
+                                  [&](TableReader& table, std::size_t) { read_step(table); });
+}
+
+void PathReader::read_start(TableReader& table) {
+  ToolPlace& from = scenario_->from;
+  std::array<double, 2> place{};
+  bool placed = false;
+  const char* key = "tube";
+  if (table.has("at_mm")) {
+    key = "at_mm";
+    placed = table.numbers("at_mm", kPlace, place);
+    if (table.has("tube")) {
+      table.complain("tube", "at_mm is given as well, expected one of them");
+      table.ignore("tube");
+    }
+  } else {
+    TubeAddress tube;
+    placed = read_tube(table, "tube", tube);
+    place = placed ? tube_place(*sheet_, tube) : place;
+    table.ignore("at_mm");
+  }
+  std::array<double, 2> offset{};
+  std::array<double, 2> lean{};
+  from = {0.0, 0.0, 60.0, 0.0, 0.0, 0.0};
+  table.optional_numbers("offset_mm", kOffset, offset);
+  table.optional_number("height_mm", kHeight, from.height_mm);
+  table.optional_number("heading_deg", kHeading, from.alpha_deg);
+  table.optional_numbers("lean_deg", kLean, lean);
+  table.optional_number("scatter_mm", kScatter, scatter_mm_);
+  read_manner(table, manner_, false);
+  read_manner(table, manner_, true);
+  from.x_mm = place[0] + offset[0];
+  from.y_mm = place[1] + offset[1];
+  from.beta_deg = lean[0];
+  from.gamma_deg = lean[1];
+  if (const std::string wrong = placed ? why_off_the_sheet({from.x_mm, from.y_mm}) : "";
+      !wrong.empty()) {
+    table.complain(key, wrong);
+  }
+  static_cast<void>(path_->begin(from));  // finite: all were read within ranges
+}
+
+void PathReader::read_manner(TableReader& table, Manner& manner, bool turn) {
+  std::size_t shape = static_cast<std::size_t>(manner.shape);
+  table.optional_word("profile", kShapes, shape);
+  manner.shape = static_cast<core::kinematics::SpeedShape>(shape);
+  if (turn) {
+    table.optional_number("speed_deg_s", kTurnSpeed, manner.turn.speed);
+    table.optional_number("acceleration_deg_s2", kTurnAcceleration, manner.turn.acceleration);
+    table.optional_number("jerk_deg_s3", kTurnJerk, manner.turn.jerk);
+  } else {
+    table.optional_number("speed_mm_s", kSpeed, manner.move.speed);
+    table.optional_number("acceleration_mm_s2", kAcceleration, manner.move.acceleration);
+    table.optional_number("jerk_mm_s3", kJerk, manner.move.jerk);
+  }
+}
+
+void PathReader::read_step(TableReader& table) {
+  std::string_view action;
+  for (const std::string_view candidate : kActions) {
+    if (!table.has(candidate)) {
+      continue;
+    }
+    if (!action.empty()) {
+      table.complain(candidate, std::string(action) + " is in the same step, expected " +
+                                    std::string(kOneAction));
+      table.ignore(candidate);
+      continue;
+    }
+    action = candidate;
+  }
+  if (action.empty()) {
+    table.complain("rest_s", std::string("missing, expected ") + kOneAction);
+    for (const std::string_view key : kManners) {
+      table.ignore(key);  // whose they are cannot be told
+    }
+    return;
+  }
+  if (action == "rest_s") {
+    read_rest(table);
+    return;
+  }
+  if (action == "tour") {
+    read_tour(table);
+    return;
+  }
+  PathSegment segment;
+  const bool turn = action == "heading_deg" || action == "lean_deg";
+  Manner manner = manner_;
+  read_manner(table, manner, turn);
+  segment.shape = manner.shape;
+  segment.limits = turn ? manner.turn : manner.move;
+  const std::size_t before = table.problems().size();
+  if (action == "height_mm") {
+    segment.kind = SegmentKind::kHeight;
+    table.number("height_mm", kHeight, segment.height_mm);
+  } else if (action == "dock_mm") {
+    segment.kind = SegmentKind::kDock;
+    table.number("dock_mm", kHeight, segment.height_mm);
+  } else if (action == "heading_deg") {
+    segment.kind = SegmentKind::kTurn;
+    table.number("heading_deg", kHeading, segment.alpha_deg);
+  } else if (action == "lean_deg") {
+    segment.kind = SegmentKind::kLean;
+    table.numbers("lean_deg", kLean, segment.lean_deg);
+  } else {
+    read_move(table, segment);
+  }
+  if (table.problems().size() == before) {
+    append(table, action, segment);
+  }
+}
+
+void PathReader::read_rest(TableReader& table) {
+  PathSegment rest;
+  rest.kind = SegmentKind::kRest;
+  bool claims = false;
+  table.optional_switch("claim", claims);
+  const ToolPlace& place = path_->end();
+  TubeAddress tube = nearest_address(*sheet_, {place.x_mm, place.y_mm});
+  if (table.has("claim_tube")) {
+    claims = read_tube(table, "claim_tube", tube);
+  } else {
+    table.ignore("claim_tube");
+  }
+  const double from_s = path_->duration_s();
+  if (table.number("rest_s", kRest, rest.rest_s) && append(table, "rest_s", rest) && claims) {
+    claim(tube, from_s + rest.rest_s / 2.0);
+  }
+}
+
+void PathReader::read_move(TableReader& table, PathSegment& segment) {
+  segment.kind = SegmentKind::kMove;
+  const std::size_t before = table.problems().size();
+  if (table.has("to_mm")) {
+    table.numbers("to_mm", kPlace, segment.to_mm);
+    return;
+  }
+  TubeAddress tube;
+  std::array<double, 2> offset{};
+  read_tube(table, "to", tube);
+  const bool exact = table.has("offset_mm");
+  table.optional_numbers("offset_mm", kOffset, offset);
+  if (table.problems().size() == before) {
+    const auto place = tube_place(*sheet_, tube);
+    const auto error = exact ? std::array<double, 2>{} : scattered();
+    segment.to_mm = {place[0] + offset[0] + error[0], place[1] + offset[1] + error[1]};
+  }
+}
+
+/// From one corner of a block of tubes to the other, along the rows, there and back again.
+void PathReader::read_tour(TableReader& table) {
+  Manner manner = manner_;
+  read_manner(table, manner, false);
+  double rest_s = 0.5;
+  bool claims = true;
+  std::int32_t most = 1000;
+  table.optional_number("pause_s", kRest, rest_s);
+  table.optional_switch("claim", claims);
+  table.optional_whole("at_most", {1, 2000}, most);
+  const toml::array* const corners = table.list("tour", true, "[[row, column], [row, column]]");
+  TubeAddress a;
+  TubeAddress b;
+  if (corners == nullptr) {
+    return;
+  }
+  if (corners->size() != 2 || !drivers::read_address((*corners)[0], a) ||
+      !drivers::read_address((*corners)[1], b)) {
+    table.complain("tour", "not two addresses, expected [[row, column], [row, column]]");
+    return;
+  }
+  for (const TubeAddress corner : {a, b}) {
+    if (!drivers::in_ranges(*sheet_, corner)) {
+      table.complain("tour",
+                     drivers::address_text(corner) + ", expected " + drivers::ranges_text(*sheet_));
+      return;
+    }
+  }
+  PathSegment move;
+  move.kind = SegmentKind::kMove;
+  move.shape = manner.shape;
+  move.limits = manner.move;
+  const std::int32_t down = a.row <= b.row ? 1 : -1;
+  std::int32_t visits = 0;
+  for (std::int32_t row = a.row; row != b.row + down && visits < most; row += down) {
+    const std::int32_t along = a.column <= b.column ? 1 : -1;
+    for (std::int32_t column = a.column; column != b.column + along && visits < most;
+         column += along) {
+      if (drivers::why_no_tube(*sheet_, {row, column}).empty()) {
+        visit(table, {row, column}, rest_s, claims, move);
+        ++visits;
+      }
+    }
+    std::swap(a.column, b.column);
+  }
+  if (visits == 0) {
+    table.complain("tour", "no tube stands there, expected at least one");
+  }
+}
+
+void PathReader::visit(TableReader& table, TubeAddress tube, double rest_s, bool claims,
+                       PathSegment move) {
+  const auto place = tube_place(*sheet_, tube);
+  const auto error = scattered();
+  move.to_mm = {place[0] + error[0], place[1] + error[1]};
+  PathSegment rest;
+  rest.rest_s = rest_s;
+  if (!append(table, "tour", move)) {
+    return;
+  }
+  const double from_s = path_->duration_s();
+  if (append(table, "tour", rest) && claims) {
+    claim(tube, from_s + rest_s / 2.0);
+  }
+}
+
+bool PathReader::read_tube(TableReader& table, std::string_view key, TubeAddress& tube) {
+  if (!table.address(key, tube)) {
+    return false;
+  }
+  const std::string wrong = drivers::why_no_tube(*sheet_, tube);
+  if (!wrong.empty()) {
+    table.complain(key, wrong);
+  }
+  return wrong.empty();
+}
+
+bool PathReader::append(TableReader& table, std::string_view key, const PathSegment& segment) {
+  if (segment.kind == SegmentKind::kMove) {
+    if (const std::string wrong = why_off_the_sheet(segment.to_mm); !wrong.empty()) {
+      table.complain(key, wrong);
+      return false;
+    }
+  }
+  const auto added = path_->add(segment);
+  if (!added) {
+    table.complain(key, added.error() == core::Error::kBufferTooSmall
+                            ? "the path is too long, expected at most " +
+                                  std::to_string(core::kinematics::kMaxPathSegments) + " segments"
+                            : "no such motion, expected speeds and accelerations that can be");
+    return false;
+  }
+  scenario_->path.push_back(segment);
+  return true;
+}
+
+void PathReader::claim(TubeAddress tube, double at_s) {
+  drivers::ScenarioEvent told;
+  told.at_s = at_s;
+  told.event.kind = core::EventKind::kClaim;
+  told.event.claim = tube;
+  scenario_->events.push_back(told);
+}
+
+std::string PathReader::why_off_the_sheet(const std::array<double, 2>& point_mm) const {
+  const auto at = lattice_place(*sheet_, point_mm);
+  constexpr double kHalfAStep = 0.5;
+  const bool inside =
+      at[0] >= sheet_->rows[0] - kHalfAStep && at[0] <= sheet_->rows[1] + kHalfAStep &&
+      at[1] >= sheet_->columns[0] - kHalfAStep && at[1] <= sheet_->columns[1] + kHalfAStep;
+  if (inside) {
+    return {};
+  }
+  return place_text(point_mm) + " is off the sheet, at row " + rounded(at[0]) + " and column " +
+         rounded(at[1]) + ", expected " + drivers::ranges_text(*sheet_);
+}
+
+/// Where a robot stops instead of exactly under the tube.
+std::array<double, 2> PathReader::scattered() {
+  drivers::Dice dice(drivers::derived_seed(seed_, draws_++));
+  while (true) {
+    const double x = dice.between(-1.0, 1.0);
+    const double y = dice.between(-1.0, 1.0);
+    if (x * x + y * y <= 1.0) {
+      return {scatter_mm_ * x, scatter_mm_ * y};
+    }
+  }
+}
+
+}  // namespace tubesight::board

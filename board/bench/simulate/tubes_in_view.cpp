@@ -1,0 +1,110 @@
+#include "board/bench/simulate/tubes_in_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "board/bench/simulate/lattice_geometry.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::rendering::TubeEndKind;
+using Vector = std::array<double, 2>;
+
+double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// Twice the area of a triangle over the square of its longest side.
+double fatness(const Vector& a, const Vector& b, const Vector& c) {
+  const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const double longest = std::max({distance(a, b), distance(b, c), distance(a, c)});
+  return std::abs(area) / (longest * longest);
+}
+
+/// Whether a rim about this centre can reach into the picture: no rim is as wide as the picture.
+bool near_picture(const std::optional<Vector>& center_px, const core::CameraSettings& camera) {
+  return center_px && (*center_px)[0] > -0.5 * camera.width_px &&
+         (*center_px)[0] < 1.5 * camera.width_px && (*center_px)[1] > -0.5 * camera.height_px &&
+         (*center_px)[1] < 1.5 * camera.height_px;
+}
+
+bool clear(const TubeInView& tube, const core::StartSettings& start) {
+  const auto& [left, top, right, bottom] = start.window_px;
+  const auto& [u, v] = tube.image.ellipse_px;
+  const auto& [half_u, half_v] = tube.image.half_px;
+  constexpr double kLeastHalf_px = 8.0;  // smaller ones are not measured
+  return tube.end.kind == TubeEndKind::kOpen && tube.image.occluded == 0.0 &&
+         half_v >= kLeastHalf_px && u - half_u >= left && u + half_u <= right &&
+         v - half_v >= top && v + half_v <= bottom;
+}
+
+}  // namespace
+
+void list_tubes_in_view(const core::rendering::Truth& truth, const core::rendering::Scene& scene,
+                        const drivers::FieldTruth& field, const drivers::FieldFaults& faults,
+                        std::vector<TubeInView>& tubes) {
+  tubes.clear();
+  const core::CameraSettings& camera = scene.camera;
+  const core::TubesheetSettings& sheet = scene.sheet;
+  // Farther away than this from the tool a tube-end is too small to matter, even for a camera that
+  // looks along the sheet.
+  constexpr double kFarthest_mm = 600.0;
+  const auto& tip = field.T_sheet_tool.translation_mm();
+  const auto& r = sheet.row_step_mm;
+  const auto& c = sheet.column_step_mm;
+  const double area = std::abs(r[0] * c[1] - r[1] * c[0]);
+  const auto rows = static_cast<std::int32_t>(kFarthest_mm * std::hypot(c[0], c[1]) / area);
+  const auto columns = static_cast<std::int32_t>(kFarthest_mm * std::hypot(r[0], r[1]) / area);
+  const core::TubeAddress middle = nearest_address(sheet, {tip.x(), tip.y()});
+  const std::int32_t first_row = std::max(sheet.rows[0], middle.row - rows);
+  const std::int32_t last_row = std::min(sheet.rows[1], middle.row + rows);
+  const std::int32_t first_column = std::max(sheet.columns[0], middle.column - columns);
+  const std::int32_t last_column = std::min(sheet.columns[1], middle.column + columns);
+  for (std::int32_t row = first_row; row <= last_row; ++row) {
+    for (std::int32_t column = first_column; column <= last_column; ++column) {
+      const auto end = truth.tube_ends().at({row, column});
+      if (end.kind == TubeEndKind::kVoid ||
+          !near_picture(truth.image_of(field.T_sheet_tool, end.center_mm, faults.knock), camera)) {
+        continue;
+      }
+      const auto image = truth.tube_image(field.T_sheet_tool, {row, column}, faults.knock);
+      if (image && image->rim_in_frame > 0.0 && image->occluded < 1.0) {
+        tubes.push_back({{row, column}, end, *image});
+      }
+    }
+  }
+}
+
+std::vector<TubeInView> choose_start_tubes(const std::vector<TubeInView>& in_view,
+                                           const core::StartSettings& start) {
+  std::vector<TubeInView> candidates;
+  for (const TubeInView& tube : in_view) {
+    if (clear(tube, start)) {
+      candidates.push_back(tube);
+    }
+  }
+  if (candidates.empty()) {
+    return {};
+  }
+  const auto by = [](const Vector& place) {
+    return [place](const TubeInView& a, const TubeInView& b) {
+      return distance(a.image.center_px, place) < distance(b.image.center_px, place);
+    };
+  };
+  std::vector<TubeInView> chosen = {
+      *std::min_element(candidates.begin(), candidates.end(), by(start.optimum_px))};
+  std::sort(candidates.begin(), candidates.end(), by(chosen.front().image.center_px));
+  for (std::size_t i = 1; i < candidates.size() && chosen.size() < 3; ++i) {
+    // An equilateral triangle has 0.87, the half of a square 0.5.
+    constexpr double kThinnest = 0.3;
+    const TubeInView& next = candidates[i];
+    if (chosen.size() < 2 || fatness(chosen[0].image.center_px, chosen[1].image.center_px,
+                                     next.image.center_px) >= kThinnest) {
+      chosen.push_back(next);
+    }
+  }
+  return chosen;
+}
+
+}  // namespace tubesight::board

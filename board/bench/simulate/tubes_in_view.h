@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/settings.h"
+#include "core/base/tube_address.h"
+#include "core/rendering/scene.h"
+#include "core/rendering/truth.h"
+#include "drivers/simulated/simulated_world.h"
+
+namespace tubesight::board {
+
+/// A tube-end that the picture shows, at least in part.
+struct TubeInView {
+  core::TubeAddress address;
+  core::rendering::TubeEnd end;
+  core::rendering::TubeImage image;
+};
+
+/// Replaces `tubes` by the tube-ends, plugged ones too, of which a part of the rim is in the
+/// picture and in front of the guidetube; by growing address.
+void list_tubes_in_view(const core::rendering::Truth& truth, const core::rendering::Scene& scene,
+                        const drivers::FieldTruth& field, const drivers::FieldFaults& faults,
+                        std::vector<TubeInView>& tubes);
+
+/// Chooses up to `count` tubes for an operator to click on: open, wholly in the window and in
+/// sight, the first nearest to the optimum point, the next ones near it and not in one line. Fewer
+/// than three: the picture does not show them.
+[[nodiscard]] std::vector<TubeInView> choose_start_tubes(const std::vector<TubeInView>& in_view,
+                                                         const core::StartSettings& start);
+
+}  // namespace tubesight::board

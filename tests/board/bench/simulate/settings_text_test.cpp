@@ -1,0 +1,96 @@
+#include "board/bench/simulate/settings_text.h"
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "drivers/settings/session_settings.h"
+#include "tests/drivers/settings/settings_files.h"
+
+namespace tubesight::board {
+namespace {
+
+TEST(TomlNumber, IsTheShortestDecimalWithAPoint) {
+  EXPECT_EQ(toml_number(25.0), "25.0");
+  EXPECT_EQ(toml_number(0.1), "0.1");
+  EXPECT_EQ(toml_number(-0.00005), "-0.00005");
+  EXPECT_EQ(toml_number(19.24741459910915), "19.24741459910915");
+}
+
+TEST(TomlText, KeepsQuotationMarksApart) {
+  EXPECT_EQ(toml_text("a \"b\" \\ c\nd"), "\"a \\\"b\\\" \\\\ c d\"");
+}
+
+/// Everything different from its default.
+std::unique_ptr<drivers::SessionFile> odd_session() {
+  auto file = std::make_unique<drivers::SessionFile>();
+  drivers::MemoryFiles files;
+  files.texts["s.toml"] =
+      "[camera]\nwidth_px = 635\nheight_px = 480\nscan = \"odd-first\"\nfocal_length_mm = 5.0603\n"
+      "cell_width_mm = 0.00841\ncell_height_mm = 0.0098\nsensor_columns = 768\n"
+      "frame_columns = 635\nhorizontal_scale = 1.021\ncenter_px = [324.37, 233.81]\n"
+      "distortion_per_mm2 = 0.0092\ndistortion2_per_mm4 = -0.00001\n"
+      "[tool]\nposition_mm = [-3.074145, 31.628971, 112.789218]\n"
+      "rotation_deg = [-0.0639064, -0.8174368, 47.9947489]\n"
+      "[tubesheet]\norigin_mm = [1.5, -2.25]\nrow_step_mm = [0.0, 19.24741459910915]\n"
+      "column_step_mm = [11.1125, 0.0]\nbore_mm = 14.2\nweld = \"fillet\"\nrows = [-3, 120]\n"
+      "columns = [-4, 121]\naddresses = \"odd-sum\"\nmissing = [[1, 2], [3, 4]]\n"
+      "plugged = [[5, 6]]\n"
+      "[start]\ntubes = [ { row = 40, column = 61, at_px = [313.25, 196] },\n"
+      "{ row = 41, column = 60, at_px = [288, 230] }, { row = 40, column = 63, at_px = [360, 190] "
+      "} ]\n"
+      "window_px = [41, 37, 594, 329]\noptimum_px = [300.5, 170]\n"
+      "[motion]\nmax_speed_mm_s = 251.5\nmax_acceleration_mm_s2 = 2001\n"
+      "[edges]\ninitial_threshold = 210\nregion_threshold = 61\n"
+      "[verification]\naligned_within_mm = 2.25\n";
+  drivers::Messages messages;
+  const bool good =
+      drivers::load_session_settings(files, "s.toml", drivers::kReplayNeeds, *file, messages)
+          .has_value();
+  EXPECT_TRUE(good) << (messages.empty() ? "" : messages.front());
+  return file;
+}
+
+TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
+  const auto before = odd_session();
+  const std::string text = session_text(before->settings) + start_text(before->settings.start);
+  drivers::MemoryFiles files;
+  files.texts["again.toml"] = text;
+  const auto after = std::make_unique<drivers::SessionFile>();
+  drivers::Messages messages;
+
+  ASSERT_TRUE(
+      drivers::load_session_settings(files, "again.toml", drivers::kReplayNeeds, *after, messages))
+      << messages.front() << "\n"
+      << text;
+
+  const core::SessionSettings& a = before->settings;
+  const core::SessionSettings& b = after->settings;
+  EXPECT_EQ(b.camera.scan, core::Scan::kOddFirst);
+  EXPECT_EQ(a.camera.focal_length_mm, b.camera.focal_length_mm);
+  EXPECT_EQ(a.camera.center_px, b.camera.center_px);
+  EXPECT_EQ(a.camera.distortion2_per_mm4, b.camera.distortion2_per_mm4);
+  EXPECT_EQ(a.camera.cell_width_mm, b.camera.cell_width_mm);
+  EXPECT_EQ(a.tool.position_mm, b.tool.position_mm);
+  EXPECT_EQ(a.tool.rotation_deg, b.tool.rotation_deg);
+  EXPECT_EQ(a.tubesheet.origin_mm, b.tubesheet.origin_mm);
+  EXPECT_EQ(a.tubesheet.row_step_mm, b.tubesheet.row_step_mm);
+  EXPECT_EQ(b.tubesheet.weld, core::Weld::kFillet);
+  EXPECT_EQ(b.tubesheet.addresses, core::AddressParity::kOddSum);
+  EXPECT_EQ(a.tubesheet.rows, b.tubesheet.rows);
+  EXPECT_EQ(a.tubesheet.columns, b.tubesheet.columns);
+  ASSERT_EQ(b.tubesheet.missing.size(), 2);
+  EXPECT_EQ(b.tubesheet.missing[1], (core::TubeAddress{3, 4}));
+  ASSERT_EQ(b.tubesheet.plugged.size(), 1);
+  ASSERT_EQ(b.start.tubes.size(), 3);
+  EXPECT_EQ(b.start.tubes[0].at_px[0], 313.25);
+  EXPECT_EQ(a.start.window_px, b.start.window_px);
+  EXPECT_EQ(a.start.optimum_px, b.start.optimum_px);
+  EXPECT_EQ(b.motion.max_speed_mm_s, 251.5);
+  EXPECT_EQ(b.edges.initial_threshold, 210);
+  EXPECT_EQ(b.verification.aligned_within_mm, 2.25);
+}
+
+}  // namespace
+}  // namespace tubesight::board

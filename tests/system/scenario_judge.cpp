@@ -1,0 +1,111 @@
+#include "tests/system/scenario_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "core/base/names.h"
+#include "core/base/scalar.h"
+#include "core/session/session.h"
+#include "drivers/settings/session_checks.h"
+#include "drivers/simulated/simulated_world.h"
+
+namespace tubesight::tests {
+namespace {
+
+using core::rendering::TubeEndKind;
+
+constexpr double kSlack_mm = 0.3;
+constexpr double kUnclear_mm = 1.5;
+
+void judge_field(const drivers::SimulatedField& field, const core::Sighting& sighting,
+                 double gate_mm, double pitch_mm, ScenarioVerdict& verdict) {
+  const auto& nearest = field.truth.axis.nearest;
+  const bool stands = nearest.kind != TubeEndKind::kVoid;
+  const bool aligned = stands && nearest.offset_mm <= gate_mm - kSlack_mm;
+  const bool clear = stands && nearest.offset_mm < pitch_mm / 2.0 - kUnclear_mm;
+  const bool right = sighting.tool_known && sighting.tool == nearest.address;
+  verdict.truly_aligned += aligned ? 1 : 0;
+  verdict.missed += aligned && !sighting.aligned ? 1 : 0;
+  const bool wrong_tube = sighting.aligned && (!right || !stands);
+  const bool false_aligned = sighting.aligned && nearest.offset_mm > gate_mm + kSlack_mm;
+  const bool wrong_nearest = sighting.tool_known && clear && !right;
+  if (field.truth.jumped) {
+    verdict.undetectable += wrong_tube || false_aligned || wrong_nearest ? 1 : 0;
+    return;
+  }
+  verdict.wrong_tube += wrong_tube ? 1 : 0;
+  verdict.false_aligned += false_aligned ? 1 : 0;
+  verdict.wrong_nearest += wrong_nearest ? 1 : 0;
+}
+
+void judge_replies(const core::session::Output& output, ScenarioVerdict& verdict) {
+  for (const core::session::Reply& reply : output.replies) {
+    if (reply.kind == core::EventKind::kClaim) {
+      ++verdict.claims;
+      verdict.contradicted += reply.verdict == core::session::Reply::Verdict::kContradicted ? 1 : 0;
+    }
+  }
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+double ScenarioVerdict::answered_share() const { return share(answered, fields); }
+double ScenarioVerdict::missed_share() const { return share(missed, truly_aligned); }
+
+std::string ScenarioVerdict::text() const {
+  std::ostringstream text;
+  text << fields << " fields, answered " << answered_share() << ", missed " << missed_share()
+       << " of " << truly_aligned << ", wrong tube " << wrong_tube << ", false aligned "
+       << false_aligned << ", wrong nearest " << wrong_nearest << ", undetectable " << undetectable
+       << ", contradicted " << contradicted << " of " << claims << ", end " << core::name_of(end);
+  for (const core::Reason reason : lost) {
+    text << ", lost " << core::name_of(reason);
+  }
+  for (const core::Reason reason : degraded) {
+    text << ", degraded " << core::name_of(reason);
+  }
+  return text.str();
+}
+
+ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
+  ScenarioVerdict verdict;
+  const auto world = std::make_unique<drivers::SimulatedWorld>();
+  const auto session = std::make_unique<core::session::Session<core::FixedPoint>>();
+  const drivers::Scenario& scenario = file.scenario;
+  if (!world->configure(scenario) || !session->configure(scenario.told)) {
+    return verdict;
+  }
+  verdict.played = true;
+  const double pitch_mm = drivers::shortest_step_mm(scenario.told.tubesheet);
+  const auto input = std::make_unique<core::session::Input>();
+  const auto output = std::make_unique<core::session::Output>();
+  drivers::SimulatedField field;
+  while (world->next(field)) {
+    input->field = field.field;
+    input->lamp_permille = field.lamp_permille;
+    input->events = field.events;
+    session->step(*input, *output);
+    const core::Sighting& sighting = output->sighting;
+    ++verdict.fields;
+    verdict.end = sighting.state;
+    if (sighting.state == core::TrackState::kLost) {
+      verdict.lost.insert(sighting.reason);
+    } else if (sighting.state != core::TrackState::kWaiting) {
+      ++verdict.answered;
+    }
+    if (sighting.state == core::TrackState::kDegraded) {
+      verdict.degraded.insert(sighting.reason);
+    }
+    judge_field(field, sighting, scenario.told.verification.aligned_within_mm, pitch_mm, verdict);
+    judge_replies(*output, verdict);
+  }
+  return verdict;
+}
+
+}  // namespace tubesight::tests

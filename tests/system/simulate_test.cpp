@@ -1,0 +1,152 @@
+// `simulate`, then `replay` and `pose` on what it wrote, against the truth it wrote.
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/system/csv_rows.h"
+#include "tests/system/program.h"
+#include "tests/system/scenario_text.h"
+
+namespace tubesight::tests {
+namespace {
+
+using support::TemporaryFolder;
+
+const std::string kLibrary = std::string(TUBESIGHT_TEST_DATA_DIR) + "/scenarios/";
+
+/// A scenario simulated and replayed.
+struct SimulatedRun {
+  TemporaryFolder folder;
+  std::vector<Row> fields;
+  std::vector<Row> truth;
+
+  explicit SimulatedRun(const std::string& scenario, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = {"simulate", scenario, "--out", "r"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramRun simulated = run_tubesight(folder, arguments);
+    EXPECT_EQ(simulated.status, 0) << simulated.err;
+    EXPECT_EQ(simulated.err, "");
+    const ProgramRun replayed =
+        run_tubesight(folder, {"replay", "r.session.toml", "r.y4m", "--fields", "f.csv"});
+    EXPECT_EQ(replayed.status, 0) << replayed.err;
+    EXPECT_EQ(replayed.err, "");
+    fields = read_rows(folder.read("f.csv"));
+    truth = read_rows(folder.read("r.truth.csv"));
+  }
+};
+
+/// As the recordings are scored: rows of field and truth in the same order.
+void expect_right(const SimulatedRun& run) {
+  ASSERT_EQ(run.fields.size(), run.truth.size());
+  int vouched = 0;
+  for (std::size_t i = 0; i < run.fields.size(); ++i) {
+    const Row& field = run.fields[i];
+    const Row& truth = run.truth[i];
+    EXPECT_EQ(number(field, "field"), 2 * number(truth, "frame") + number(truth, "field")) << i;
+    EXPECT_NEAR(number(field, "time_s"), number(truth, "t"), 1e-6) << i;
+    if (field.at("tool_row").empty()) {
+      continue;
+    }
+    if (field.at("aligned") == "1") {
+      ++vouched;
+      EXPECT_EQ(field.at("tool_row"), truth.at("near_row")) << i;
+      EXPECT_EQ(field.at("tool_column"), truth.at("near_col")) << i;
+      EXPECT_NEAR(number(field, "tool_offset_mm"), number(truth, "offset_mm"), 0.15) << i;
+    }
+    EXPECT_NEAR(number(field, "tool_height_mm"), -number(truth, "tool_z"), 0.3) << i;
+  }
+  EXPECT_GT(vouched, 30);
+}
+
+TEST(Simulate, GivesARecordingOnWhichReplayIsRight) {
+  const SimulatedRun run(kLibrary + "rest-triangular.toml");
+
+  EXPECT_EQ(run.fields.size(), 60U);
+  for (const Row& field : run.fields) {
+    EXPECT_EQ(field.at("state"), "tracking");
+  }
+  expect_right(run);
+}
+
+TEST(Simulate, FieldsLostOutOfAFrameKeepTheirPlaceAsDamagedOnes) {
+  const SimulatedRun run(kLibrary + "fault-dropped.toml", {"--window-only"});
+
+  const std::vector<Row> meta = read_rows(run.folder.read("r.meta.csv"));
+  ASSERT_EQ(meta.size(), run.fields.size());
+  // 0.25 s is field 15, the later one of its frame.
+  EXPECT_EQ(meta[15].at("status"), "damaged");
+  EXPECT_EQ(meta[15].at("sequence"), "15");
+  EXPECT_EQ(run.truth[15].at("faults"), "dropped");
+  EXPECT_EQ(run.fields[15].at("reason"), "damaged-field");
+  EXPECT_EQ(meta[14].at("status"), "good");
+  // Fields 72 to 74 are lost from 1.2 s on: a whole frame is left out.
+  EXPECT_EQ(meta[72].at("sequence"), "74");
+  EXPECT_EQ(meta[72].at("status"), "damaged");
+  EXPECT_EQ(meta[73].at("sequence"), "75");
+  expect_right(run);
+}
+
+TEST(Simulate, WritesTheClaimsAtTheirFields) {
+  const SimulatedRun run(kLibrary + "rest-square.toml", {"--window-only"});
+
+  EXPECT_EQ(run.folder.read("r.events.csv"),
+            "field,time_s,kind,values\n30,0.500000,claim,\"40,60\"\n");
+  const ProgramRun replayed = run_tubesight(run.folder, {"replay", "r.session.toml", "r.y4m"});
+  EXPECT_NE(replayed.out.find("claims: 1, 1 confirmed"), std::string::npos) << replayed.out;
+}
+
+TEST(Simulate, GivesPicturesFromWhichPoseTellsTheTool) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", small_scenario_text());
+  ASSERT_EQ(run_tubesight(folder, {"simulate", "s.toml", "--out", "r"}).status, 0);
+  const std::string video = folder.read("r.y4m");
+  const std::size_t first = video.find("FRAME\n") + 6;
+  folder.write("still.pgm", "P5\n635 480\n255\n" + video.substr(first, 635 * 480));
+
+  const ProgramRun run =
+      run_tubesight(folder, {"pose", "r.session.toml", "still.pgm", "--csv", "p.csv"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Row pose = read_rows(folder.read("p.csv")).at(0);
+  // Under tube (40, 60) of 25.4 mm pitch, 60 mm below.
+  EXPECT_NEAR(number(pose, "tool_x_mm"), 1524.0, 0.05);
+  EXPECT_NEAR(number(pose, "tool_y_mm"), 1016.0, 0.05);
+  EXPECT_NEAR(number(pose, "tool_z_mm"), -60.0, 0.05);
+  EXPECT_NEAR(number(pose, "tool_beta_deg"), 0.0, 0.03);
+  EXPECT_NEAR(number(pose, "tool_gamma_deg"), 0.0, 0.03);
+}
+
+TEST(Simulate, TheSeedDecidesTheBytes) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", small_scenario_text());
+  const auto simulated = [&](const std::string& name, const std::string& seed) {
+    EXPECT_EQ(run_tubesight(folder, {"simulate", "s.toml", "--out", name, "--seed", seed}).status,
+              0);
+    return folder.read(name + ".y4m") + folder.read(name + ".session.toml");
+  };
+
+  const std::string first = simulated("a", "3");
+
+  EXPECT_EQ(simulated("b", "3"), first);
+  EXPECT_NE(simulated("c", "4"), first);
+}
+
+TEST(Simulate, TellsWhatItWrote) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", small_scenario_text());
+
+  const ProgramRun run = run_tubesight(folder, {"simulate", "s.toml", "--out", "r"});
+
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, "r.y4m: 635 x 480, 3 frames, 6 of 6 fields delivered, 0.100 s\n");
+  EXPECT_EQ(folder.names().size(), 7U);
+  EXPECT_TRUE(folder.read("r.y4m").starts_with("YUV4MPEG2 W635 H480 F30:1 It Cmono\nFRAME\n"));
+}
+
+}  // namespace
+}  // namespace tubesight::tests
