@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/campaign_command.h"
+#include "board/bench/campaign_options.h"
 #include "board/bench/pose_command.h"
 #include "board/bench/pose_options.h"
 #include "board/bench/replay_command.h"
@@ -127,6 +129,53 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   return pose;
 }
 
+CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
+  CLI::App* const campaign = app.add_subcommand(
+      "campaign", "Random plants, cameras, paths and faults: counts what the box says wrong");
+  constexpr std::int64_t kMost = std::int64_t{1} << 53U;
+  const CLI::Range positive(std::int64_t{1}, kMost);
+  const CLI::Range natural(std::int64_t{0}, kMost);
+  campaign->add_option("--moves", options.moves, "Run until N moves are done, those resumed too")
+      ->option_text("N")
+      ->check(positive);
+  campaign->add_option("--fields", options.fields, "Run until the box has seen N fields")
+      ->option_text("N")
+      ->check(positive);
+  campaign->add_option("--hours", options.hours, "Run for H hours")
+      ->option_text("H")
+      ->check(CLI::Range(1e-6, 1e5));
+  campaign->add_option("--seed", options.seed, "Seed of all that is drawn; default 1")
+      ->option_text("S")
+      ->check(natural);
+  campaign->add_option("--first-move", options.first_move, "Number of the first move; default 0")
+      ->option_text("M")
+      ->check(natural);
+  campaign->add_option("--jobs", options.jobs, "Moves run at a time; default 1")
+      ->option_text("J")
+      ->check(CLI::Range(1, 1024));
+  campaign
+      ->add_option("--resume", options.resume,
+                   "Progress file (CSV): continued when it is there, kept up to date")
+      ->option_text("FILE");
+  campaign->add_option("--report", options.report, "Write counts and bounds of every stratum (CSV)")
+      ->option_text("FILE");
+  campaign->add_option("--merge", options.merge, "Put progress files together, and report")
+      ->option_text("FILE...");
+  campaign
+      ->add_option("--replay-move", options.one_move,
+                   "Run one move and write it as a scenario for tubesight simulate")
+      ->option_text("SEED:MOVE");
+  campaign
+      ->add_option("--out", options.out,
+                   "Where the scenario goes; with --merge: the merged progress file")
+      ->option_text("FILE");
+  campaign->add_flag("--reduce", options.reduce,
+                     "With --replay-move: first leave out all that its wrong tube does not need");
+  campaign->add_flag("--without-margin-check", options.without_margin_check,
+                     "Self-proof: the box rounds to the nearest tube, and must be found out");
+  return campaign;
+}
+
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const simulate = app.add_subcommand(
       "simulate", "A steam generator on the bench: a recording of a scenario, with its truth");
@@ -172,6 +221,8 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const replay = add_replay(app, options, scalar);
   PoseCommandOptions pose_options;
   const CLI::App* const pose = add_pose(app, pose_options);
+  CampaignOptions campaign_options;
+  const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
   try {
@@ -181,6 +232,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   }
   if (pose->parsed()) {
     return run_pose(pose_options);
+  }
+  if (campaign->parsed()) {
+    return run_campaign(campaign_options, TUBESIGHT_VERSION);
   }
   if (simulate->parsed()) {
     return run_simulate(simulate_options);

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "board/bench/campaign/move_run.h"
+#include "board/bench/campaign/progress.h"
+
+namespace tubesight::board::campaign {
+
+/// When a campaign ends, counted over all that its progress holds; zero: no such limit.
+struct CampaignLimits {
+  std::int64_t moves = 0;
+  std::int64_t fields = 0;
+  double hours = 0.0;  ///< of this run alone
+};
+
+/// What a campaign runs.
+struct CampaignPlan {
+  std::uint64_t seed = 1;
+  std::int64_t first_move = 0;
+  CampaignLimits limits;
+  std::int32_t jobs = 1;
+  RunOptions run;
+};
+
+/// A move in which the box vouched for a wrong tube.
+struct WrongMove {
+  std::uint64_t seed = 0;
+  std::int64_t move = 0;
+  std::int64_t field = 0;  ///< the first wrong one
+};
+
+/// What is told while a campaign runs; called by one thread at a time.
+struct CampaignWatcher {
+  std::function<void(const WrongMove&)> found_wrong;
+  /// After every move; false ends the campaign (what is done stays).
+  std::function<bool(const Progress&)> done_move;
+};
+
+/// Why moves could not be run; empty when all went well.
+///
+/// Runs moves from `plan.first_move` on that `progress` does not hold yet and adds them in their
+/// order, whatever the number of jobs: the same moves leave the same counts.
+[[nodiscard]] std::string run_campaign(const CampaignPlan& plan, Progress& progress,
+                                       const CampaignWatcher& watcher);
+
+/// Version and digest of the running program's file: only runs of the very same program are put
+/// together. Where the file cannot be read, the digest of nothing.
+[[nodiscard]] std::string box_identity(const std::string& version);
+
+/// What is drawn, and how it is run.
+[[nodiscard]] std::string configuration_name(const RunOptions& run);
+
+}  // namespace tubesight::board::campaign

@@ -1,0 +1,93 @@
+#include "board/bench/campaign/move_run.h"
+
+#include <chrono>
+
+#include "board/bench/campaign/random_plant.h"
+#include "core/base/scalar.h"
+
+namespace tubesight::board::campaign {
+namespace {
+
+using core::FixedPoint;
+using core::rendering::TubeEndKind;
+using drivers::SimulatedField;
+using Session = core::session::Session<FixedPoint>;
+
+FieldTruth truth_of(const SimulatedField& field) {
+  FieldTruth truth;
+  const core::rendering::NearestTube& nearest = field.truth.axis.nearest;
+  truth.nearest = nearest.address;
+  truth.present = field.truth.axis_known && nearest.kind != TubeEndKind::kVoid;
+  truth.offset_mm = nearest.offset_mm;
+  truth.slip = {field.faults.jump[0], field.faults.jump[1]};
+  return truth;
+}
+
+/// FNV-1a over what matters of the answers.
+class Digest {
+ public:
+  void add(std::int64_t value) {
+    value_ = (value_ ^ static_cast<std::uint64_t>(value)) * 1099511628211ULL;
+  }
+  void add(const core::Sighting& sighting) {
+    add(static_cast<std::int64_t>(sighting.state));
+    add(static_cast<std::int64_t>(sighting.reason));
+    add(sighting.tracked);
+    add(sighting.tool.row);
+    add(sighting.tool.column);
+    add(sighting.offset_um_q8);
+    add(sighting.aligned ? 1 : 0);
+    add(sighting.margin_permyriad);
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+}  // namespace
+
+MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& options) {
+  MoveResult result;
+  const auto session = std::make_unique<Session>();
+  if (!world_->configure(scenario) || !session->configure(scenario.told)) {
+    return result;
+  }
+  if (!options.margin_check) {
+    session->disable_margin_check_for_self_proof();
+  }
+  result.runs = true;
+  MoveJudge judge({scenario.told.verification.aligned_within_mm, pitch_mm(scenario.scene.sheet)});
+  Digest digest;
+  SimulatedField field;
+  while (!judge.over() && world_->next(field)) {
+    input_->field = field.field;
+    input_->lamp_permille = field.lamp_permille;
+    input_->events = field.events;
+    session->step(*input_, *output_);
+    digest.add(output_->sighting);
+    const std::int64_t wrong_before = judge.first_wrong_field();
+    judge.take(truth_of(field), output_->sighting);
+    if (wrong_before < 0 && judge.first_wrong_field() >= 0) {
+      result.first_wrong_field = field.slot;
+      if (options.stop_at_wrong) {
+        break;
+      }
+    }
+  }
+  if (judge.over()) {
+    // The box says `lost` to the end: no need to draw that.
+    for (std::int64_t slot = field.slot + 1; slot < world_->slots(); ++slot) {
+      const double time_s = std::chrono::duration<double>(world_->slot_time(slot)).count();
+      const auto axis = world_->truth().axis(world_->path().state_at(time_s).T_sheet_tool);
+      field.truth.axis_known = axis.has_value();
+      field.truth.axis = axis.value_or(core::rendering::AxisTruth{});
+      judge.take_unseen(truth_of(field));
+    }
+  }
+  result.counts = judge.counts();
+  result.digest = digest.value();
+  return result;
+}
+
+}  // namespace tubesight::board::campaign

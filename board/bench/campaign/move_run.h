@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "board/bench/campaign/counts.h"
+#include "board/bench/campaign/move_judge.h"
+#include "core/session/session.h"
+#include "drivers/simulated/scenario.h"
+#include "drivers/simulated/simulated_world.h"
+
+namespace tubesight::board::campaign {
+
+/// How a scenario is run.
+struct RunOptions {
+  /// False: the self-proof. The tracker rounds to the nearest tube without asking whether it can.
+  bool margin_check = true;
+  bool stop_at_wrong = false;  ///< ends with the first wrong tube vouched for
+};
+
+/// What came of a scenario.
+struct MoveResult {
+  bool runs = false;  ///< false: the scenario cannot be played or tracked; nothing else is valid
+  Counts counts;
+  std::int64_t first_wrong_field = -1;  ///< slot of the camera; -1: no wrong tube vouched for
+  std::uint64_t digest = 0;             ///< of all that the box said
+};
+
+/// Runs scenarios in memory: simulated world, session in fixed point, judge. Some MB, kept from
+/// scenario to scenario; one thread.
+class MoveRunner {
+ public:
+  [[nodiscard]] MoveResult run(const drivers::Scenario& scenario, const RunOptions& options);
+
+ private:
+  std::unique_ptr<drivers::SimulatedWorld> world_ = std::make_unique<drivers::SimulatedWorld>();
+  std::unique_ptr<core::session::Input> input_ = std::make_unique<core::session::Input>();
+  std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
+};
+
+}  // namespace tubesight::board::campaign

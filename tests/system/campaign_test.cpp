@@ -1,0 +1,96 @@
+// `tubesight campaign` as a user starts it.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+#include "tests/system/program.h"
+
+namespace tubesight::tests {
+namespace {
+
+using support::TemporaryFolder;
+
+class CampaignProgram : public testing::Test {
+ protected:
+  ProgramRun run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "campaign");
+    return run_tubesight(folder_, arguments);
+  }
+  // One line that names what is wrong.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& about) {
+    const ProgramRun refused = run(arguments);
+    EXPECT_EQ(refused.status, 2) << refused.err;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    EXPECT_NE(refused.err.find(about), std::string::npos) << refused.err;
+    EXPECT_EQ(refused.out, "");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CampaignProgram, RefusesArgumentsThatMeanNothing) {
+  expect_refused({}, "expected one of --moves, --fields, --hours");
+  expect_refused({"--moves", "5", "--merge", "a.csv"}, "expected one of");
+  expect_refused({"--moves", "0"}, "--moves");
+  expect_refused({"--moves", "many"}, "--moves");
+  expect_refused({"--hours", "-1"}, "--hours");
+  expect_refused({"--moves", "1", "--jobs", "0"}, "--jobs");
+  expect_refused({"--moves", "1", "--seed", "-4"}, "--seed");
+  expect_refused({"--moves", "1", "--out", "a.toml"}, "--out goes with");
+  expect_refused({"--moves", "1", "--reduce"}, "--reduce needs --replay-move");
+  expect_refused({"--replay-move", "1:2"}, "--replay-move needs --out");
+  expect_refused({"--replay-move", "1-2", "--out", "a.toml"}, "expected SEED:MOVE");
+  expect_refused({"--replay-move", "1:-2", "--out", "a.toml"}, "expected SEED:MOVE");
+}
+
+TEST_F(CampaignProgram, RefusesFilesThatAreNoProgressOfThisBox) {
+  expect_refused({"--merge", "missing.csv"}, "missing.csv");
+  folder_.write("other.csv", "field,frame\n0,0\n");
+  expect_refused({"--merge", "other.csv"}, "other.csv");
+  expect_refused({"--moves", "1", "--resume", "other.csv"}, "other.csv");
+  expect_refused({"--moves", "1", "--resume", "no/such/folder.csv"}, "no/such/folder.csv");
+  EXPECT_EQ(folder_.read("other.csv"), "field,frame\n0,0\n") << "left as it was";
+}
+
+TEST_F(CampaignProgram, ResumesMergesAndReports) {
+  ASSERT_EQ(run({"--moves", "1", "--resume", "a.csv"}).status, 0);
+  const ProgramRun resumed = run({"--moves", "2", "--resume", "a.csv", "--report", "report.csv"});
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("seed 1: moves 0 to 1\n"), std::string::npos) << resumed.out;
+  EXPECT_NE(folder_.read("report.csv").find("\nall,2,"), std::string::npos);
+  ASSERT_EQ(run({"--moves", "1", "--first-move", "2", "--resume", "b.csv"}).status, 0);
+  const ProgramRun merged = run({"--merge", "a.csv", "b.csv", "--out", "all.csv"});
+  EXPECT_EQ(merged.status, 0) << merged.err;
+  EXPECT_NE(merged.out.find("seed 1: moves 0 to 2\n"), std::string::npos) << merged.out;
+  // The same as three moves at one go, but for the time they took.
+  const ProgramRun at_once = run({"--moves", "3"});
+  const auto after_time = [](const std::string& text) { return text.substr(text.find("\n\n")); };
+  EXPECT_EQ(after_time(merged.out), after_time(at_once.out));
+
+  expect_refused({"--merge", "a.csv", "all.csv"}, "expected each move once");
+  std::string other = folder_.read("a.csv");
+  for (std::size_t at = 0; (at = other.find(",0.", at)) != std::string::npos;) {
+    other[at + 1] = '7';
+  }
+  folder_.write("other.csv", other);
+  expect_refused({"--moves", "3", "--resume", "other.csv"}, "it is of box 7.");
+}
+
+TEST_F(CampaignProgram, WritesAMoveThatSimulateTakes) {
+  const ProgramRun written = run({"--replay-move", "1:8", "--out", "move.toml"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_NE(written.out.find("move 1:8, square/upright/flush/stream/slow"), std::string::npos);
+  EXPECT_NE(written.out.find("move.toml: shows the same"), std::string::npos) << written.out;
+  EXPECT_EQ(run_tubesight(folder_, {"simulate", "move.toml", "--out", "move"}).status, 0);
+  EXPECT_EQ(run_tubesight(folder_, {"replay", "move.session.toml", "move.y4m", "--fields", "f.csv"})
+                .status,
+            0);
+  expect_refused({"--replay-move", "1:8", "--out", "again.toml", "--reduce"}, "no wrong tube");
+}
+
+}  // namespace
+}  // namespace tubesight::tests
