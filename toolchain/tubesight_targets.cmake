@@ -137,6 +137,12 @@ function(tubesight_add_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 300)
   endif()
+  # Tests that a preset leaves out by their label need not be compiled there.
+  foreach(label IN LISTS arg_LABELS)
+    if(label IN_LIST TUBESIGHT_LABELS_NOT_BUILT)
+      return()
+    endif()
+  endforeach()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE
     tubesight::warnings tubesight::build_options ${arg_LINKS} GTest::gtest_main)
