@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/replaced_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/program.h"
 #include "tests/system/tiny_replay.h"
@@ -12,13 +13,8 @@
 namespace tubesight::tests {
 namespace {
 
+using support::replaced;
 using support::TemporaryFolder;
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return at == std::string::npos ? text : text.replace(at, what.size(), by);
-}
 
 struct SettingsMistake {
   const char* name;

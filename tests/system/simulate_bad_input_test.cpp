@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "tests/support/replaced_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/program.h"
 #include "tests/system/scenario_text.h"
@@ -15,13 +16,8 @@
 namespace tubesight::tests {
 namespace {
 
+using support::replaced;
 using support::TemporaryFolder;
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos) << what;
-  return at == std::string::npos ? text : text.replace(at, what.size(), by);
-}
 
 ProgramRun simulate(const TemporaryFolder& folder) {
   return run_tubesight(folder, {"simulate", "s.toml", "--out", "r"});

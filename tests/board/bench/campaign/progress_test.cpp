@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/replaced_text.h"
+
 namespace tubesight::board::campaign {
 namespace {
+
+using support::replaced;
 
 const CampaignIdentity kIdentity{"0.1.0-abc", "design-1"};
 
@@ -89,12 +93,6 @@ std::string refusal(const std::string& text) {
   EXPECT_FALSE(progress.parse(text, "p.csv", why));
   EXPECT_EQ(why.find('\n'), std::string::npos) << why;
   return why;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, std::string::npos);
-  return text.replace(at, what.size(), by);
 }
 
 TEST(Progress, RefusesWhatIsNoWholeFile) {
