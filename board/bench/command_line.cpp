@@ -92,7 +92,15 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
           "SESSION.toml", options.session,
           "Settings of the session: camera, tubesheet, and tool for the tool's pose (TOML)")
       ->required();
-  pose->add_option("IMAGE", options.images, "Stills: 8-bit grey PNG or PGM")->required();
+  pose->add_option("IMAGE", options.images,
+                   "Stills: 8-bit grey PNG or PGM; or recordings (.y4m, .y4m.xz)")
+      ->required();
+  pose->add_option("--frames", options.frames,
+                   "Of recordings: the frames, counted from 0; default: the first alone")
+      ->option_text("A-B")
+      ->check([](const std::string& text) {
+        return std::string(text.empty() ? "names no frame, expected A-B or A" : "");
+      });
   pose->add_option("--start", options.start,
                    "Tube-ends by row, column and a place in their dark, px; default: [start]")
       ->option_text("\"R,C,U,V;...\"")

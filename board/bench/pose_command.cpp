@@ -1,5 +1,6 @@
 #include "board/bench/pose_command.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include "board/bench/pose_starts.h"
 #include "board/bench/pose_text.h"
 #include "board/bench/pose_words.h"
+#include "board/bench/still_reader.h"
 #include "core/pose/calibration_uncertainty.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
@@ -40,12 +42,12 @@ class PoseRun {
     if (!open()) {
       return ExitStatus::kWrongInput;
     }
-    StillAverager stills(settings().camera);
-    const std::span<const std::string> images = options_.images;
-    const std::size_t at_once = options_.average ? images.size() : 1;
+    StillAverager averager(settings().camera);
+    const std::span<const Still> stills = stills_;
+    const std::size_t at_once = options_.average ? stills.size() : 1;
     ExitStatus status = ExitStatus::kDone;
-    for (std::size_t i = 0; i < images.size(); i += at_once) {
-      const ExitStatus one = take(stills, images.subspan(i, at_once));
+    for (std::size_t i = 0; i < stills.size(); i += at_once) {
+      const ExitStatus one = take(averager, stills.subspan(i, at_once));
       if (one == ExitStatus::kWrongInput) {
         return one;
       }
@@ -71,7 +73,7 @@ class PoseRun {
     for (const std::string& message : messages) {
       tell(message);
     }
-    return good && make_model() && take_starts() && take_extras() && outputs_fit();
+    return good && make_model() && take_stills() && take_starts() && take_extras() && outputs_fit();
   }
 
   bool make_model() {
@@ -84,6 +86,23 @@ class PoseRun {
       return false;
     }
     model_ = *model;
+    return true;
+  }
+
+  bool take_stills() {
+    FrameRange frames;
+    if (!options_.frames.empty()) {
+      if (!parse_frames(options_.frames, frames)) {
+        tell("--frames: " + drivers::in_quotes(options_.frames) +
+             ", expected A-B or A, frames of a recording counted from 0");
+        return false;
+      }
+      if (std::none_of(options_.images.begin(), options_.images.end(), is_recording)) {
+        tell("--frames: no recording is given, expected a file that ends in .y4m or .y4m.xz");
+        return false;
+      }
+    }
+    stills_ = stills_of(options_.images, frames);
     return true;
   }
 
@@ -148,8 +167,8 @@ class PoseRun {
   }
 
   bool outputs_fit() {
-    if (!options_.overlay.empty() && !options_.average && options_.images.size() > 1) {
-      tell("--overlay: one picture for " + std::to_string(options_.images.size()) +
+    if (!options_.overlay.empty() && !options_.average && stills_.size() > 1) {
+      tell("--overlay: one picture for " + std::to_string(stills_.size()) +
            " poses, expected one still or --average");
       return false;
     }
@@ -161,9 +180,9 @@ class PoseRun {
   }
 
   /// One pose, with its rows and its text.
-  ExitStatus take(StillAverager& stills, std::span<const std::string> images) {
-    const StillsRead read = stills.read(images);
-    PoseRow row{images.front(), nullptr, core::pose::Matrix6d::Zero(), file_.has_tool, true};
+  ExitStatus take(StillAverager& averager, std::span<const Still> stills) {
+    const StillsRead read = averager.read(stills);
+    PoseRow row{stills.front().name(), nullptr, core::pose::Matrix6d::Zero(), file_.has_tool, true};
     std::string message = read.message;
     if (read.status == ExitStatus::kDone) {
       core::pose::PictureOptions how;
@@ -180,17 +199,17 @@ class PoseRun {
         row.covariance = outcome_.pose.estimate.covariance;
         add_calibrations(how.pose.rims, row);
         row.has_tube = map_.state(outcome_.pose.estimate.nearest) != core::TubeState::kAbsent;
-        text_ += pose_text({row, outcome_, model_, map_, static_cast<std::int32_t>(images.size()),
+        text_ += pose_text({row, outcome_, model_, map_, static_cast<std::int32_t>(stills.size()),
                             read.frame_shift_px, read.field_shift_px, options_.total});
         if (!options_.correct.empty()) {
           text_ += correction_text(core::pose::correct_position(model_, row.estimate->T_sheet_tool,
                                                                 row.covariance, correction_),
                                    correction_);
         }
-        draw(stills);
+        draw(averager);
         ++poses_;
       } else {
-        message = images.front() + ": " + explain(outcome_, starts_);
+        message = row.image + ": " + explain(outcome_, starts_);
       }
     }
     append_pose_row(poses_csv_, row);
@@ -217,9 +236,9 @@ class PoseRun {
     }
   }
 
-  void draw(const StillAverager& stills) {
+  void draw(const StillAverager& averager) {
     if (!options_.overlay.empty()) {
-      overlay_ = draw_pose(stills.still(), outcome_, workspace_->rims, model_, file_.has_tool,
+      overlay_ = draw_pose(averager.picture(), outcome_, workspace_->rims, model_, file_.has_tool,
                            overlay_pixels_);
     }
   }
@@ -254,6 +273,7 @@ class PoseRun {
   drivers::SessionFile file_;
   core::tubesheet::SheetMap map_;
   core::pose::PoseModel model_;
+  std::vector<Still> stills_;
   PictureStarts starts_;
   core::pose::CalibrationUncertainty calibrations_;
   core::pose::CorrectionRequest correction_;

@@ -13,7 +13,8 @@ namespace tubesight::board {
 struct PoseCommandOptions {
   std::string session;
   std::vector<std::string> images;
-  std::string start;  ///< "R,C,U,V;…"; empty: [start] of the session
+  std::string frames;  ///< "A-B" or "A" of each recording; empty: its first frame
+  std::string start;   ///< "R,C,U,V;…"; empty: [start] of the session
   bool only_start = false;
   bool average = false;
   std::string csv;

@@ -23,11 +23,11 @@ StillAverager::StillAverager(const core::CameraSettings& camera)
       sums_(static_cast<std::size_t>(camera.width_px) *
             static_cast<std::size_t>(camera.height_px)) {}
 
-StillsRead StillAverager::read(std::span<const std::string> images) {
+StillsRead StillAverager::read(std::span<const Still> stills) {
   StillsRead result;
   core::pose::RestAverage average(sums_, camera_.width_px, camera_.height_px);
-  for (const std::string& image : images) {
-    if (!add(image, average, result)) {
+  for (const Still& still : stills) {
+    if (!add(still, average, result)) {
       return result;
     }
   }
@@ -38,7 +38,7 @@ StillsRead StillAverager::read(std::span<const std::string> images) {
   if (!rest.rested) {
     const bool fields = rest.field_shift_px > core::pose::kLargestFieldShift_px;
     result.status = ExitStatus::kJobFailed;
-    result.message = images.front() + ": the camera moved: the picture shifts by " +
+    result.message = stills.front().name() + ": the camera moved: the picture shifts by " +
                      in_pixels(fields ? rest.field_shift_px : rest.frame_shift_px) + " between " +
                      (fields ? "the two fields of a frame" : "the pictures") +
                      ", expected a camera at rest";
@@ -46,20 +46,19 @@ StillsRead StillAverager::read(std::span<const std::string> images) {
   return result;
 }
 
-bool StillAverager::add(const std::string& image, core::pose::RestAverage& average,
-                        StillsRead& result) {
+bool StillAverager::add(const Still& still, core::pose::RestAverage& average, StillsRead& result) {
   const auto fail = [&](std::string message) {
     result.status = ExitStatus::kWrongInput;
     result.message = std::move(message);
     return false;
   };
   std::string message;
-  if (!drivers::read_grey_picture(image, still_, message)) {
+  if (!reader_.read(still, picture_, message)) {
     return fail(std::move(message));
   }
-  if (still_.width_px != camera_.width_px || still_.height_px != camera_.height_px) {
-    return fail(image + ": " + std::to_string(still_.width_px) + " x " +
-                std::to_string(still_.height_px) + " pixels, expected " +
+  if (picture_.width_px != camera_.width_px || picture_.height_px != camera_.height_px) {
+    return fail(still.file + ": " + std::to_string(picture_.width_px) + " x " +
+                std::to_string(picture_.height_px) + " pixels, expected " +
                 std::to_string(camera_.width_px) + " x " + std::to_string(camera_.height_px) +
                 " as [camera] of the settings says");
   }
@@ -67,8 +66,8 @@ bool StillAverager::add(const std::string& image, core::pose::RestAverage& avera
   for (const core::Parity parity : {core::Parity::kEven, core::Parity::kOdd}) {
     const core::Parity lines = whole ? core::Parity::kProgressive : parity;
     if ((!whole || parity == core::Parity::kEven) &&
-        !average.add(core::field_of(still_.view(), lines))) {
-      return fail(image + ": more than " + std::to_string(core::pose::kMaxAveragedFrames) +
+        !average.add(core::field_of(picture_.view(), lines))) {
+      return fail(still.name() + ": more than " + std::to_string(core::pose::kMaxAveragedFrames) +
                   " pictures, expected at most that many with --average");
     }
   }

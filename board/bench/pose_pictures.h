@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "board/bench/exit_status.h"
+#include "board/bench/still_reader.h"
 #include "core/base/settings.h"
 #include "core/pose/averaged_picture.h"
 #include "core/pose/rest_average.h"
@@ -28,17 +29,18 @@ class StillAverager {
  public:
   explicit StillAverager(const core::CameraSettings& camera);
 
-  [[nodiscard]] StillsRead read(std::span<const std::string> images);
+  [[nodiscard]] StillsRead read(std::span<const Still> stills);
 
   /// The last still read, to draw on.
-  [[nodiscard]] core::ImageView still() const { return still_.view(); }
+  [[nodiscard]] core::ImageView picture() const { return picture_.view(); }
 
  private:
-  bool add(const std::string& image, core::pose::RestAverage& average, StillsRead& result);
+  bool add(const Still& still, core::pose::RestAverage& average, StillsRead& result);
 
   core::CameraSettings camera_;
   std::vector<std::uint16_t> sums_;
-  drivers::GreyPicture still_;
+  StillReader reader_;
+  drivers::GreyPicture picture_;
 };
 
 }  // namespace tubesight::board

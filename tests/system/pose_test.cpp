@@ -118,6 +118,34 @@ TEST(Pose, TotalNeedsTheCalibrationsUncertaintiesAndAddsThem) {
   EXPECT_NEAR(std::sqrt(squares), std::sqrt(0.03 * 0.03 + 0.04 * 0.04 + 0.05 * 0.05), 0.001);
 }
 
+/// A recording of the same frame twice.
+std::string two_frames(const drivers::GreyPicture& still) {
+  const std::string frame = "FRAME\n" + std::string(still.pixels.begin(), still.pixels.end());
+  return "YUV4MPEG2 W635 H480 F30:1 It Cmono\n" + frame + frame;
+}
+
+TEST(Pose, OfARecordingTakesItsFramesAsPictures) {
+  const TemporaryFolder folder;
+  drivers::GreyPicture still;
+  std::string message;
+  ASSERT_TRUE(drivers::read_grey_picture(kSquare + "still-0-0.png", still, message).has_value());
+  folder.write("two.y4m", two_frames(still));
+
+  const ProgramRun each =
+      pose(folder, {"two.y4m", "--frames", "0-1", "--start", kThree, "--csv", "each.csv"});
+  const ProgramRun first = pose(folder, {"two.y4m", "--start", kThree, "--csv", "first.csv"});
+  const ProgramRun mean = pose(
+      folder, {"two.y4m", "--frames", "0-1", "--average", "--start", kThree, "--csv", "mean.csv"});
+
+  EXPECT_EQ(each.status, 0) << each.err;
+  EXPECT_EQ(Row(folder.path("each.csv"), 0).text("image"), "two.y4m frame 0");
+  EXPECT_EQ(Row(folder.path("each.csv"), 1).text("image"), "two.y4m frame 1");
+  expect_right(folder.path("each.csv"), kSquare, 0.010, 0.010, 0.010);
+  EXPECT_EQ(first.status, 0) << first.err;
+  EXPECT_EQ(first.out.find("frame 1"), std::string::npos) << first.out;
+  EXPECT_NE(mean.out.find("two.y4m frame 0: average of 2 pictures"), std::string::npos) << mean.out;
+}
+
 struct Refusal {
   const char* name;
   std::vector<std::string> arguments;  ///< behind the session
@@ -146,6 +174,7 @@ class PoseRefusals : public ::testing::TestWithParam<Refusal> {
     folder_.write("flat.pgm", header + flat);
     folder_.write("moved.pgm", header + moved);
     folder_.write("torn.pgm", header + torn);
+    folder_.write("two.y4m", two_frames(still));
     folder_.write("small.pgm", "P5\n320 240\n255\n" + std::string(320 * 240, '\x60'));
   }
 
@@ -212,6 +241,23 @@ INSTANTIATE_TEST_SUITE_P(
                 {"small.pgm", "--start", kThree},
                 2,
                 "small.pgm: 320 x 240 pixels, expected 635 x 480 as [camera] of the settings says"},
+        Refusal{"FrameBehindTheEnd",
+                {"two.y4m", "--frames", "1-2", "--start", kThree},
+                2,
+                "two.y4m: has no frame 2, expected --frames within its 2, counted from 0"},
+        Refusal{"FramesNotInOrder",
+                {"two.y4m", "--frames", "1-0", "--start", kThree},
+                2,
+                "--frames: '1-0', expected A-B or A, frames of a recording counted from 0"},
+        Refusal{"FramesEmpty",
+                {"two.y4m", "--frames", "", "--start", kThree},
+                2,
+                "--frames: names no frame, expected A-B or A"},
+        Refusal{"FramesOfAPicture",
+                {"STILL", "--frames", "1", "--start", kThree},
+                2,
+                "--frames: no recording is given, expected a file that ends in .y4m or .y4m.xz"},
+        Refusal{"NoRecording", {"none.y4m", "--start", kThree}, 2, "none.y4m: cannot be read: "},
         Refusal{"StartNoNumbers",
                 {"STILL", "--start", "7,41,304;7,42,373,192"},
                 2,

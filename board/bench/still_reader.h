@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "drivers/files/picture_reader.h"
+#include "drivers/files/y4m_reader.h"
+
+namespace tubesight::board {
+
+/// A still: a picture's file, or one frame of a recording.
+struct Still {
+  std::string file;
+  std::int64_t frame = -1;  ///< counted from 0; -1: `file` is a picture
+
+  /// As messages and tables call it: the file, with " frame N" behind a recording.
+  [[nodiscard]] std::string name() const;
+};
+
+/// The frames that are taken of each recording, both ends included.
+struct FrameRange {
+  std::int64_t first = 0;  ///< the frame in which the operator clicked, by default
+  std::int64_t last = 0;
+};
+
+/// Reads "A" or "A-B", 0 <= A <= B <= 99999. False when it is anything else.
+[[nodiscard]] bool parse_frames(std::string_view text, FrameRange& frames);
+
+/// Whether a file's name ends as a recording's: `.y4m` or `.y4m.xz`.
+[[nodiscard]] bool is_recording(std::string_view file);
+
+/// Each picture once, each recording once for each of `frames`, in the order given.
+[[nodiscard]] std::vector<Still> stills_of(std::span<const std::string> files, FrameRange frames);
+
+/// Reads stills one by one; frames of one recording, taken in rising order, in one pass over it.
+class StillReader {
+ public:
+  /// Errors: those of drivers::read_grey_picture() and drivers::Y4mReader; kOutOfRange the
+  /// recording has no such frame. `message` is one line that begins with the file's name.
+  [[nodiscard]] core::Result<void> read(const Still& still, drivers::GreyPicture& picture,
+                                        std::string& message);
+
+ private:
+  core::Result<void> read_frame(const Still& still, drivers::GreyPicture& picture,
+                                std::string& message);
+
+  drivers::Y4mReader reader_;
+  std::string open_;  ///< the recording in reader_; empty: none, or one that failed
+};
+
+}  // namespace tubesight::board
