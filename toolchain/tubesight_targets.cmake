@@ -146,6 +146,11 @@ function(tubesight_add_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE
     tubesight::warnings tubesight::build_options ${arg_LINKS} GTest::gtest_main)
+  if(TUBESIGHT_PRECOMPILE_TEST_HEADERS)
+    target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
+    # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
+    target_compile_options(${name} PRIVATE -Wno-array-bounds)
+  endif()
   target_compile_definitions(${name} PRIVATE
     TUBESIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TUBESIGHT_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data")

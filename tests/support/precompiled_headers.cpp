@@ -1,0 +1,1 @@
+// Empty: CMake hangs the precompiled header on a source.
