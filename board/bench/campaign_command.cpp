@@ -4,10 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "board/bench/campaign/campaign_run.h"
 #include "board/bench/campaign/report.h"
 #include "board/bench/one_move_command.h"
+#include "board/bench/output_paths.h"
 #include "board/bench/progress_line.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/byte_source.h"
@@ -185,12 +187,26 @@ std::string why_arguments_contradict(const CampaignOptions& options) {
   return {};
 }
 
+/// Where an output cannot go; empty when all can. A progress file is hours of work: nothing else is
+/// ever written over one that is read, the merged progress neither.
+std::string find_output_conflict(const CampaignOptions& options) {
+  std::vector<NamedPath> inputs = {{"--resume", options.resume}};
+  for (const std::string& path : options.merge) {
+    inputs.push_back({"a file of --merge", path});
+  }
+  const std::vector<NamedPath> outputs = {{"--out", options.out}, {"--report", options.report}};
+  return find_clash(inputs, outputs);
+}
+
 }  // namespace
 
 ExitStatus run_campaign(const CampaignOptions& options, const std::string& version) {
-  if (const std::string why = why_arguments_contradict(options); !why.empty()) {
-    tell(why);
-    return ExitStatus::kWrongInput;
+  for (const std::string& why :
+       {why_arguments_contradict(options), find_output_conflict(options)}) {
+    if (!why.empty()) {
+      tell(why);
+      return ExitStatus::kWrongInput;
+    }
   }
   if (!options.one_move.empty()) {
     return campaign::run_one_move(options);

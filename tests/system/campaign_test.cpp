@@ -56,6 +56,19 @@ TEST_F(CampaignProgram, RefusesFilesThatAreNoProgressOfThisBox) {
   EXPECT_EQ(folder_.read("other.csv"), "field,frame\n0,0\n") << "left as it was";
 }
 
+TEST_F(CampaignProgram, WritesNothingOverAProgressFile) {
+  folder_.write("p.csv", "a night's work\n");
+  const std::string about = "is also ";
+  expect_refused({"--moves", "1", "--resume", "p.csv", "--report", "p.csv"}, about + "--resume");
+  expect_refused({"--moves", "1", "--resume", "p.csv", "--report", "./p.csv"}, about + "--resume");
+  expect_refused({"--moves", "1", "--resume", "new.csv", "--report", "new.csv"},
+                 about + "--resume");
+  expect_refused({"--merge", "q.csv", "p.csv", "--report", "p.csv"}, about + "a file of --merge");
+  expect_refused({"--merge", "q.csv", "p.csv", "--out", "p.csv"}, about + "a file of --merge");
+  expect_refused({"--merge", "p.csv", "--out", "r.csv", "--report", "r.csv"}, about + "--out");
+  EXPECT_EQ(folder_.read("p.csv"), "a night's work\n");
+}
+
 TEST_F(CampaignProgram, ResumesMergesAndReports) {
   ASSERT_EQ(run({"--moves", "1", "--resume", "a.csv"}).status, 0);
   const ProgramRun resumed = run({"--moves", "2", "--resume", "a.csv", "--report", "report.csv"});
