@@ -45,6 +45,7 @@ void judge_replies(const core::session::Output& output, ScenarioVerdict& verdict
     if (reply.kind == core::EventKind::kClaim) {
       ++verdict.claims;
       verdict.contradicted += reply.verdict == core::session::Reply::Verdict::kContradicted ? 1 : 0;
+      verdict.confirmed += reply.verdict == core::session::Reply::Verdict::kConfirmed ? 1 : 0;
     }
   }
 }
@@ -63,7 +64,8 @@ std::string ScenarioVerdict::text() const {
   text << fields << " fields, answered " << answered_share() << ", missed " << missed_share()
        << " of " << truly_aligned << ", wrong tube " << wrong_tube << ", false aligned "
        << false_aligned << ", wrong nearest " << wrong_nearest << ", undetectable " << undetectable
-       << ", contradicted " << contradicted << " of " << claims << ", end " << core::name_of(end);
+       << ", contradicted " << contradicted << " and confirmed " << confirmed << " of " << claims
+       << ", tubes " << tubes.size() << ", end " << core::name_of(end);
   for (const core::Reason reason : lost) {
     text << ", lost " << core::name_of(reason);
   }
@@ -103,6 +105,10 @@ ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
       verdict.degraded.insert(sighting.reason);
     }
     judge_field(field, sighting, scenario.told.verification.aligned_within_mm, pitch_mm, verdict);
+    const core::TubeAddress nearest = field.truth.axis.nearest.address;
+    if (sighting.aligned && sighting.tool == nearest) {
+      verdict.tubes.emplace(nearest.row, nearest.column);
+    }
     judge_replies(*output, verdict);
   }
   return verdict;

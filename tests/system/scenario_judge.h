@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "board/bench/simulate/scenario_file.h"
 #include "core/base/sighting.h"
@@ -22,6 +23,8 @@ struct ScenarioVerdict {
   std::int64_t undetectable = 0;   ///< wrong in any of these ways after a silent jump
   std::int64_t claims = 0;
   std::int64_t contradicted = 0;
+  std::int64_t confirmed = 0;
+  std::set<std::pair<std::int32_t, std::int32_t>> tubes;  ///< rightly vouched for: row, column
   std::set<core::Reason> lost;
   std::set<core::Reason> degraded;
   core::TrackState end = core::TrackState::kWaiting;

@@ -59,6 +59,8 @@ TEST_P(ScenarioLibrary, GoesAsExpected) {
   EXPECT_GE(verdict.answered_share(), expect.answered);
   EXPECT_LE(verdict.missed_share(), expect.missed);
   EXPECT_EQ(verdict.contradicted, expect.contradicted);
+  EXPECT_GE(verdict.confirmed, expect.confirmed);
+  EXPECT_GE(verdict.tubes.size(), static_cast<std::size_t>(expect.tubes));
   EXPECT_EQ(core::name_of(verdict.end), core::name_of(expect.end));
   EXPECT_EQ(verdict.undetectable > 0, expect.undetectable);
   EXPECT_TRUE(expect.lost == core::Reason::kNone || verdict.lost.contains(expect.lost));

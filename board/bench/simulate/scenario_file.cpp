@@ -258,6 +258,8 @@ void ScenarioReading::read_expectation() {
     table.optional_word("degraded", reasons, degraded);
     table.optional_whole("false_aligned", {0, 10000}, expect.false_aligned);
     table.optional_whole("contradicted", {0, 10000}, expect.contradicted);
+    table.optional_whole("confirmed", {0, 10000}, expect.confirmed);
+    table.optional_whole("tubes", {0, 10000}, expect.tubes);
     table.optional_switch("undetectable", expect.undetectable);
     expect.end = kStates[end];
     expect.lost = static_cast<core::Reason>(lost);

@@ -21,6 +21,8 @@ struct Expectation {
   core::Reason degraded = core::Reason::kNone;         ///< this care happens
   std::int32_t false_aligned = 0;  ///< at most so many fields are vouched for outside the gate
   std::int32_t contradicted = 0;   ///< claims that the box must contradict
+  std::int32_t confirmed = 0;      ///< at least so many claims are confirmed
+  std::int32_t tubes = 0;          ///< at least so many different tubes are rightly vouched for
   bool undetectable = false;       ///< wrong tubes after a silent jump are what the scenario shows
 };
 

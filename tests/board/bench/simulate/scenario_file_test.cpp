@@ -151,10 +151,11 @@ TEST(ScenarioFile, HandsEventsOverInTheOrderOfTheirTimes) {
 }
 
 TEST(ScenarioFile, ReadsWhatIsExpected) {
-  const ScenarioReading read(kRestPath +
-                             "[expect]\nanswered = 0.4\nmissed = 0.6\nend = \"lost\"\n"
-                             "lost = \"gap\"\ndegraded = \"dark\"\ncontradicted = 2\n"
-                             "undetectable = true\n[scenario]\ntitle = \"a title\"\n");
+  const ScenarioReading read(
+      kRestPath +
+      "[expect]\nanswered = 0.4\nmissed = 0.6\nend = \"lost\"\n"
+      "lost = \"gap\"\ndegraded = \"dark\"\ncontradicted = 2\n"
+      "confirmed = 3\ntubes = 4\nundetectable = true\n[scenario]\ntitle = \"a title\"\n");
 
   ASSERT_TRUE(read.good) << read.told();
   const Expectation& expect = read.file->expect;
@@ -164,6 +165,8 @@ TEST(ScenarioFile, ReadsWhatIsExpected) {
   EXPECT_EQ(expect.lost, core::Reason::kGap);
   EXPECT_EQ(expect.degraded, core::Reason::kDark);
   EXPECT_EQ(expect.contradicted, 2);
+  EXPECT_EQ(expect.confirmed, 3);
+  EXPECT_EQ(expect.tubes, 4);
   EXPECT_TRUE(expect.undetectable);
   EXPECT_EQ(read.file->title, "a title");
 }
