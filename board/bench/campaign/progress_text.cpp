@@ -50,15 +50,40 @@ struct OpenRange {
   bool has_all = false;
 };
 
+/// Moves before `end` that are of a stratum.
+std::int64_t moves_before(std::int64_t end, std::int32_t stratum) {
+  return end / kStrata + (end % kStrata > stratum ? 1 : 0);
+}
+
+/// What of a range's rows is not right; empty when they are whole. A range that claims more moves
+/// than were run would leave the others out for ever.
+std::string why_not_whole(const OpenRange& open) {
+  if (!open.has_all || !(open.sum == open.all)) {
+    return "the rows do not add up to their row \"all\"";
+  }
+  for (std::int32_t s = 0; s < kStrata; ++s) {
+    const std::int64_t expected =
+        moves_before(open.range.end, s) - moves_before(open.range.first, s);
+    const std::int64_t moves = open.range.strata[static_cast<std::size_t>(s)][Count::kMoves];
+    if (moves != expected) {
+      return "stratum " + name_of(stratum_at(s)) + " has " + std::to_string(moves) +
+             " moves, expected " + std::to_string(expected);
+    }
+  }
+  return {};
+}
+
 /// Reads the rows of a progress file.
 class ProgressReader {
  public:
-  ProgressReader(const std::string& text, const std::string& name) : csv_(text, name) {}
+  ProgressReader(const std::string& text, const std::string& name)
+      : csv_(text, name), name_(name) {}
 
   bool read(std::string& why) {
     drivers::Messages messages;
     if (!csv_.read_header(columns(), messages)) {
-      why = messages.front();
+      why = name_ + ": not a progress file of tubesight campaign, expected the header format,box," +
+            "configuration,seed and so on (docs/campaign.md has all columns)";
       return false;
     }
     while (csv_.next(messages)) {
@@ -72,9 +97,9 @@ class ProgressReader {
       return false;
     }
     for (const OpenRange& open : open_) {
-      if (!open.has_all || !(open.sum == open.all)) {
-        why = csv_.place() + "the rows of moves " + std::to_string(open.range.first) + " to " +
-              std::to_string(open.range.end) + " do not add up to their row \"all\"";
+      if (const std::string problem = why_not_whole(open); !problem.empty()) {
+        why = name_ + ": moves " + std::to_string(open.range.first) + " to " +
+              std::to_string(open.range.end - 1) + ": " + problem;
         return false;
       }
     }
@@ -125,6 +150,11 @@ class ProgressReader {
       open_.push_back({range, {}, {}, false});
     }
     OpenRange& open = open_.back();
+    if (open.range.end != range.end || open.range.busy_ms != range.busy_ms) {
+      problem_ =
+          "end_move or busy_ms differ from the rows above, expected one of each for the moves";
+      return false;
+    }
     if (stratum == kAll) {
       open.all = counts;
       open.has_all = true;
@@ -141,6 +171,7 @@ class ProgressReader {
   }
 
   drivers::CsvReader csv_;
+  std::string name_;
   CampaignIdentity identity_;
   std::vector<OpenRange> open_;
   std::string problem_;

@@ -95,10 +95,47 @@ std::string refusal(const std::string& text) {
   return why;
 }
 
+/// `text` with all of `from` as `to`.
+std::string replaced_everywhere(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+// Moves 1 to 49 would never be run.
+TEST(Progress, RefusesARangeThatItsCountsDoNotFill) {
+  const std::string good = moves(1, 0, 1).text();
+  ASSERT_NE(good.find(",design-1,1,0,1,5,"), std::string::npos);
+  EXPECT_EQ(refusal(replaced_everywhere(good, ",design-1,1,0,1,5,", ",design-1,1,0,50,5,")),
+            "p.csv: moves 0 to 49: stratum triangular/upright/flush/none/slow has 0 moves, "
+            "expected 1");
+  // A hundred moves: two of the strata 94, 95, 0 and 1, one of each other.
+  Progress progress;
+  std::string why;
+  const std::string round = moves(3, 94, 194).text();
+  EXPECT_TRUE(progress.parse(round, "p.csv", why)) << why;
+  EXPECT_NE(refusal(replaced_everywhere(round, ",design-1,3,94,194,", ",design-1,3,93,194,"))
+                .find("moves 93 to 193: stratum triangular/upright/fillet/jump/fast has 1 moves, "
+                      "expected 2"),
+            std::string::npos);
+}
+
+TEST(Progress, RefusesRowsOfARangeThatDisagree) {
+  const std::string good = moves(1, 0, 1).text();
+  const std::string second = "1,0,1,5,triangular/upright/flush/none/slow";
+  EXPECT_NE(refusal(replaced(good, second, "1,0,2,5,triangular/upright/flush/none/slow"))
+                .find("p.csv:3: end_move or busy_ms differ"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(good, second, "1,0,1,6,triangular/upright/flush/none/slow"))
+                .find("p.csv:3: end_move or busy_ms differ"),
+            std::string::npos);
+}
+
 TEST(Progress, RefusesWhatIsNoWholeFile) {
   const std::string good = moves(1, 0, 2).text();
   EXPECT_NE(refusal("").find("p.csv"), std::string::npos);
-  EXPECT_NE(refusal("a,b\n1,2\n").find("p.csv"), std::string::npos);
+  EXPECT_EQ(refusal("a,b\n1,2\n").find("p.csv: not a progress file of tubesight campaign"), 0U);
   EXPECT_EQ(refusal(good.substr(0, good.find('\n') + 1)), "p.csv: no moves in it");
   EXPECT_NE(refusal(good.substr(0, good.size() / 2)).find("p.csv"), std::string::npos);
   // A whole row less: the sum shows it.
