@@ -1,6 +1,9 @@
 #include "board/bench/campaign_command.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -56,10 +59,9 @@ class CampaignCommand {
       : options_(options), version_(version) {}
 
   ExitStatus run() {
-    plan_.seed = static_cast<std::uint64_t>(options_.seed);
-    plan_.first_move = options_.first_move;
-    plan_.limits = {options_.moves, options_.fields, options_.hours};
-    plan_.jobs = options_.jobs;
+    plan_.limits = {options_.moves.value_or(0), options_.fields.value_or(0),
+                    options_.hours.value_or(0.0)};
+    plan_.jobs = options_.jobs.value_or(1);
     plan_.run.margin_check = !options_.without_margin_check;
     return options_.merge.empty() ? run_moves() : merge();
   }
@@ -71,6 +73,7 @@ class CampaignCommand {
     if (!options_.resume.empty() && std::filesystem::exists(options_.resume) && !resume()) {
       return ExitStatus::kWrongInput;
     }
+    choose_first_move();
     // A place that cannot be written to is found out now, not after hours.
     for (const std::string& path : {options_.resume, options_.report}) {
       drivers::AtomicFile file;
@@ -108,6 +111,19 @@ class CampaignCommand {
       return false;
     }
     return true;
+  }
+
+  // Unless told otherwise, a progress file goes on with its own moves: another machine of the same
+  // campaign may be at the moves before them.
+  void choose_first_move() {
+    const std::vector<campaign::DoneRange>& done = progress_.ranges();
+    plan_.seed = done.empty() ? 1 : done.front().seed;
+    if (options_.seed) {
+      plan_.seed = static_cast<std::uint64_t>(*options_.seed);
+    }
+    const auto first = std::find_if(done.begin(), done.end(),
+                                    [this](const auto& range) { return range.seed == plan_.seed; });
+    plan_.first_move = options_.first_move.value_or(first == done.end() ? 0 : first->first);
   }
 
   // After every move; the file every five seconds.
@@ -155,7 +171,13 @@ class CampaignCommand {
     }
     // The self-proof is there to find errors; anything else that finds one has failed.
     const bool wrong = progress_.total()[Count::kWrongTube] > 0;
-    return wrong && plan_.run.margin_check ? ExitStatus::kJobFailed : ExitStatus::kDone;
+    if (!campaign::is_self_proof(progress_.identity().configuration)) {
+      return wrong ? ExitStatus::kJobFailed : ExitStatus::kDone;
+    }
+    if (!wrong) {
+      tell("self-proof: no wrong tube found without the margin check, expected one at least");
+    }
+    return wrong ? ExitStatus::kDone : ExitStatus::kJobFailed;
   }
 
   const CampaignOptions& options_;
@@ -167,13 +189,47 @@ class CampaignCommand {
   bool failed_ = false;
 };
 
+/// An option that only some tasks take.
+struct TaskOption {
+  const char* name;
+  bool given;
+  bool for_one_move;  ///< goes with --replay-move too; with --merge none does
+};
+
+/// The option that a merge or a single move has no use for; empty when there is none.
+std::string find_useless(const CampaignOptions& options) {
+  const bool merges = !options.merge.empty();
+  const std::array<TaskOption, 6> rest = {{
+      {"--resume", !options.resume.empty(), false},
+      {"--seed", options.seed.has_value(), false},
+      {"--first-move", options.first_move.has_value(), false},
+      {"--jobs", options.jobs.has_value(), false},
+      {"--report", !options.report.empty() && !merges, false},
+      {"--without-margin-check", options.without_margin_check, true},
+  }};
+  for (const TaskOption& option : rest) {
+    if (option.given && (merges || !option.for_one_move)) {
+      return option.name;
+    }
+  }
+  return {};
+}
+
 std::string why_arguments_contradict(const CampaignOptions& options) {
-  const bool limited = options.moves > 0 || options.fields > 0 || options.hours > 0.0;
+  const bool limited = options.moves || options.fields || options.hours;
   const int tasks =
       (limited ? 1 : 0) + (options.merge.empty() ? 0 : 1) + (options.one_move.empty() ? 0 : 1);
   if (tasks != 1) {
-    return "tubesight campaign: expected one of --moves, --fields, --hours; or --merge; or "
+    return "tubesight campaign: expected a limit (--moves, --fields, --hours); or --merge; or "
            "--replay-move";
+  }
+  if (options.hours && std::isnan(*options.hours)) {
+    return "tubesight campaign: --hours: nan is no time, expected 0.000001 to 100000";
+  }
+  if (const std::string useless = limited ? "" : find_useless(options); !useless.empty()) {
+    return "tubesight campaign: " + useless + " does not go with " +
+           (options.merge.empty() ? "--replay-move" : "--merge") +
+           ", expected a limit (--moves, --fields, --hours)";
   }
   if (!options.one_move.empty() && options.out.empty()) {
     return "tubesight campaign: --replay-move needs --out";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,12 +9,12 @@ namespace tubesight::board {
 
 /// The arguments of `tubesight campaign`; an empty path is one that was not given.
 struct CampaignOptions {
-  std::int64_t moves = 0;  ///< 0: not given, as the others
-  std::int64_t fields = 0;
-  double hours = 0.0;
-  std::int64_t seed = 1;
-  std::int64_t first_move = 0;
-  std::int32_t jobs = 1;
+  std::optional<std::int64_t> moves;
+  std::optional<std::int64_t> fields;
+  std::optional<double> hours;
+  std::optional<std::int64_t> seed;        ///< not given: that of the progress file, or 1
+  std::optional<std::int64_t> first_move;  ///< not given: the progress file's first, or 0
+  std::optional<std::int32_t> jobs;
   std::string resume;  ///< progress file
   std::string report;  ///< CSV
   std::vector<std::string> merge;

@@ -152,10 +152,14 @@ CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
   campaign->add_option("--hours", options.hours, "Run for H hours")
       ->option_text("H")
       ->check(CLI::Range(1e-6, 1e5));
-  campaign->add_option("--seed", options.seed, "Seed of all that is drawn; default 1")
+  campaign
+      ->add_option("--seed", options.seed,
+                   "Seed of all that is drawn; default 1, or that of --resume")
       ->option_text("S")
       ->check(natural);
-  campaign->add_option("--first-move", options.first_move, "Number of the first move; default 0")
+  campaign
+      ->add_option("--first-move", options.first_move,
+                   "Number of the first move; default 0, or the first of --resume")
       ->option_text("M")
       ->check(natural);
   campaign->add_option("--jobs", options.jobs, "Moves run at a time; default 1")

@@ -33,11 +33,12 @@ class CampaignProgram : public testing::Test {
 };
 
 TEST_F(CampaignProgram, RefusesArgumentsThatMeanNothing) {
-  expect_refused({}, "expected one of --moves, --fields, --hours");
-  expect_refused({"--moves", "5", "--merge", "a.csv"}, "expected one of");
+  expect_refused({}, "expected a limit (--moves, --fields, --hours); or --merge; or --replay-move");
+  expect_refused({"--moves", "5", "--merge", "a.csv"}, "expected a limit");
   expect_refused({"--moves", "0"}, "--moves");
   expect_refused({"--moves", "many"}, "--moves");
   expect_refused({"--hours", "-1"}, "--hours");
+  expect_refused({"--hours", "nan"}, "--hours: nan is no time");
   expect_refused({"--moves", "1", "--jobs", "0"}, "--jobs");
   expect_refused({"--moves", "1", "--seed", "-4"}, "--seed");
   expect_refused({"--moves", "1", "--out", "a.toml"}, "--out goes with");
@@ -45,6 +46,24 @@ TEST_F(CampaignProgram, RefusesArgumentsThatMeanNothing) {
   expect_refused({"--replay-move", "1:2"}, "--replay-move needs --out");
   expect_refused({"--replay-move", "1-2", "--out", "a.toml"}, "expected SEED:MOVE");
   expect_refused({"--replay-move", "1:-2", "--out", "a.toml"}, "expected SEED:MOVE");
+}
+
+TEST_F(CampaignProgram, RefusesWhatItWouldPassOver) {
+  using Words = std::vector<std::string>;
+  for (const Words& option :
+       {Words{"--resume", "a.csv"}, Words{"--seed", "1"}, Words{"--first-move", "0"},
+        Words{"--jobs", "1"}, Words{"--without-margin-check"}}) {
+    Words arguments = {"--merge", "b.csv"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    expect_refused(arguments, option.front() + " does not go with --merge");
+  }
+  for (const Words& option :
+       {Words{"--resume", "a.csv"}, Words{"--seed", "1"}, Words{"--first-move", "0"},
+        Words{"--jobs", "1"}, Words{"--report", "r.csv"}}) {
+    Words arguments = {"--replay-move", "1:2", "--out", "a.toml"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    expect_refused(arguments, option.front() + " does not go with --replay-move");
+  }
 }
 
 TEST_F(CampaignProgram, RefusesFilesThatAreNoProgressOfThisBox) {
@@ -91,6 +110,35 @@ TEST_F(CampaignProgram, ResumesMergesAndReports) {
   }
   folder_.write("other.csv", other);
   expect_refused({"--moves", "3", "--resume", "other.csv"}, "it is of box 7.");
+}
+
+// Move 0 would be another machine's, and the later merge would refuse the file.
+TEST_F(CampaignProgram, ResumesBehindTheMovesOfItsFile) {
+  ASSERT_EQ(run({"--moves", "1", "--seed", "4", "--first-move", "200", "--resume", "p.csv"}).status,
+            0);
+  const ProgramRun resumed = run({"--moves", "2", "--resume", "p.csv"});
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_EQ(resumed.out.find("seed 4: moves 200 to 201\n"), 0U) << resumed.out;
+  const ProgramRun told =
+      run({"--moves", "3", "--seed", "4", "--first-move", "0", "--resume", "p.csv"});
+  EXPECT_EQ(told.out.find("seed 4: moves 0 to 0\nseed 4: moves 200 to 201\n"), 0U) << told.out;
+}
+
+TEST_F(CampaignProgram, EndsAtWhicheverLimitComesFirst) {
+  const ProgramRun ended = run({"--moves", "1", "--fields", "1000000", "--hours", "1"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out.find("seed 1: moves 0 to 0\n"), 0U) << ended.out;
+}
+
+TEST_F(CampaignProgram, FailsItsSelfProofWhenThatFindsNothing) {
+  const ProgramRun blind = run({"--moves", "1", "--without-margin-check", "--resume", "blind.csv"});
+  EXPECT_EQ(blind.status, 1);
+  EXPECT_EQ(blind.err,
+            "self-proof: no wrong tube found without the margin check, expected one at least\n");
+  EXPECT_EQ(run({"--merge", "blind.csv"}).status, 1) << "the file says what it is of";
+  const ProgramRun found = run({"--moves", "1", "--first-move", "43", "--without-margin-check"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_EQ(found.err.find("wrong tube vouched for: move 1:43"), 0U) << found.err;
 }
 
 TEST_F(CampaignProgram, WritesAMoveThatSimulateTakes) {

@@ -18,6 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kSelfProof = "-without-margin-check";
+
 /// A finished move that waits for its turn.
 struct Finished {
   MoveResult result;
@@ -158,7 +160,9 @@ std::string box_identity(const std::string& version) {
 }
 
 std::string configuration_name(const RunOptions& run) {
-  return std::string(kDesign) + (run.margin_check ? "" : "-without-margin-check");
+  return std::string(kDesign) + (run.margin_check ? "" : kSelfProof);
 }
+
+bool is_self_proof(const std::string& configuration) { return configuration.ends_with(kSelfProof); }
 
 }  // namespace tubesight::board::campaign

@@ -53,4 +53,7 @@ struct CampaignWatcher {
 /// What is drawn, and how it is run.
 [[nodiscard]] std::string configuration_name(const RunOptions& run);
 
+/// Whether a name of configuration_name() is that of a self-proof: without the margin check.
+[[nodiscard]] bool is_self_proof(const std::string& configuration);
+
 }  // namespace tubesight::board::campaign
