@@ -42,6 +42,11 @@ class OneMove {
       : options_(options), seed_(seed), move_(move) {}
 
   ExitStatus run() {
+    // A place that cannot be written to is found out now, not after the reduction.
+    if (!file_.open(options_.out)) {
+      tell(file_.message());
+      return ExitStatus::kWrongInput;
+    }
     MoveMaker().make(seed_, move_, *scenario_);
     const std::string stratum = name_of(stratum_at(stratum_of_move(move_)));
     const MoveResult result = run(*scenario_, false);
@@ -69,11 +74,9 @@ class OneMove {
 
   // Reads the file back: what it says must be what was run.
   ExitStatus write(const std::string& stratum) {
-    drivers::AtomicFile file;
     const std::string title = "Campaign move " + options_.one_move + " (" + stratum + ")";
-    if (!file.open(options_.out) ||
-        !file.write(std::string_view(scenario_text(*scenario_, title))) || !file.commit()) {
-      tell(file.message());
+    if (!file_.write(std::string_view(scenario_text(*scenario_, title))) || !file_.commit()) {
+      tell(file_.message());
       return ExitStatus::kJobFailed;
     }
     const auto read = std::make_unique<ScenarioFile>();
@@ -84,9 +87,13 @@ class OneMove {
       }
       return ExitStatus::kJobFailed;
     }
-    const bool same = run(read->scenario, false).counts == run(*scenario_, false).counts;
-    std::printf("%s: %s\n", options_.out.c_str(),
-                same ? "shows the same" : "shows something else, by a rounding in the last bit");
+    if (run(read->scenario, false).counts != run(*scenario_, false).counts) {
+      tell(options_.out +
+           ": shows something else than the move, by a rounding in the last bit; "
+           "expected the same counts");
+      return ExitStatus::kJobFailed;
+    }
+    std::printf("%s: shows the same\n", options_.out.c_str());
     return ExitStatus::kDone;
   }
 
@@ -94,6 +101,7 @@ class OneMove {
   std::uint64_t seed_;
   std::int64_t move_;
   MoveRunner runner_;
+  drivers::AtomicFile file_;
   std::unique_ptr<drivers::Scenario> scenario_ = std::make_unique<drivers::Scenario>();
 };
 

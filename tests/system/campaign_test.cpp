@@ -44,6 +44,7 @@ TEST_F(CampaignProgram, RefusesArgumentsThatMeanNothing) {
   expect_refused({"--moves", "1", "--out", "a.toml"}, "--out goes with");
   expect_refused({"--moves", "1", "--reduce"}, "--reduce needs --replay-move");
   expect_refused({"--replay-move", "1:2"}, "--replay-move needs --out");
+  expect_refused({"--replay-move", "1:2", "--out", "no/such/folder.toml"}, "no/such/folder.toml");
   expect_refused({"--replay-move", "1-2", "--out", "a.toml"}, "expected SEED:MOVE");
   expect_refused({"--replay-move", "1:-2", "--out", "a.toml"}, "expected SEED:MOVE");
 }
