@@ -10,8 +10,7 @@ namespace tubesight::board::campaign {
 /// other parts of a stratum, and what became of the strata.
 [[nodiscard]] std::string report_text(const Progress& progress);
 
-/// The same as CSV: one row for all moves, for each kind of each part of a stratum, for the moves
-/// without faults, and for each stratum; docs/campaign.md has the columns.
+/// The same as CSV: one row for each group of report_groups(); docs/campaign.md has the columns.
 [[nodiscard]] std::string report_csv(const Progress& progress);
 
 }  // namespace tubesight::board::campaign

@@ -38,6 +38,15 @@ std::vector<ReportGroup> report_groups(const Progress& progress, bool with_strat
   std::vector<ReportGroup> groups;
   const StrataCounts strata = progress.strata();
   add(groups, "all", progress.total());
+  for (std::int32_t s = 0; s < kStrata; ++s) {
+    const Counts& counts = strata[static_cast<std::size_t>(s)];
+    const FaultGroup fault = stratum_at(s).fault;
+    // A jump is no move that [motion] allows; a vibration shakes harder than [motion] allows.
+    if (fault != FaultGroup::kJump) {
+      add(groups, "within_motion", counts);
+      add(groups, "within_motion steady", fault != FaultGroup::kMechanics ? counts : Counts{});
+    }
+  }
   for (std::size_t part = 0; part < kParts.size(); ++part) {
     for (std::int32_t s = 0; s < kStrata; ++s) {
       const Counts& counts = strata[static_cast<std::size_t>(s)];

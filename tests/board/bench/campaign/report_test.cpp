@@ -39,7 +39,10 @@ const ReportGroup* find(const std::vector<ReportGroup>& groups, const std::strin
 
 TEST(ReportGroups, SumUpTheirStrata) {
   const auto groups = report_groups(two_rounds(), true);
+  // 96 strata twice; five and four groups of faults of the six.
   for (const auto& [name, moves] : {std::pair{"all", 192},
+                                    {"within_motion", 160},
+                                    {"within_motion steady", 128},
                                     {"clear", 32},
                                     {"clear flush", 16},
                                     {"pitch=square", 96},
@@ -51,7 +54,7 @@ TEST(ReportGroups, SumUpTheirStrata) {
     EXPECT_EQ(group->counts[Count::kMoves], moves) << name;
     EXPECT_EQ(group->counts[Count::kFields], 75 * moves) << name;
   }
-  EXPECT_EQ(groups.size(), 1U + 2U * 4U + 6U + 3U + 96U);
+  EXPECT_EQ(groups.size(), 1U + 2U + 2U * 4U + 6U + 3U + 96U);
 }
 
 TEST(ReportText, TellsTotalsAndBoundsPerMove) {
