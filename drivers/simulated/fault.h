@@ -39,8 +39,9 @@ inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
 }
 
 /// One fault of a scenario. A field has it when its nominal mid-exposure is in [at_s, at_s +
-/// for_s); for_s = 0 is the one field at or after at_s, but for knock, lamps, lamp-drift and jump,
-/// which then last to the end.
+/// for_s); for_s = 0 is the first field at or after at_s, but for knock, lamp-out, lamps-dead and
+/// jump, which then last to the end. Swapped and cut go by whole frames, whose instant is that of
+/// their first field. Vibration and lamp-drift need a length.
 struct Fault {
   FaultKind kind = FaultKind::kDropped;
   double at_s = 0.0;

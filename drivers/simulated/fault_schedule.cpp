@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Core>
 
@@ -24,26 +23,26 @@ Eigen::Matrix3d rotation_about(const std::array<double, 3>& axis, double angle_r
          (1.0 - std::cos(angle_rad)) * cross * cross;
 }
 
-double end_of(const Fault& fault, double period_s) {
-  if (fault.for_s > 0.0) {
-    return fault.at_s + fault.for_s;
-  }
-  return lasts_to_the_end(fault.kind) ? std::numeric_limits<double>::infinity()
-                                      : fault.at_s + period_s;
-}
-
 bool by_frames(FaultKind kind) { return kind == FaultKind::kSwapped || kind == FaultKind::kCut; }
 
 bool at_work(const Fault& fault, const FieldSlot& slot) {
   // Times that should be equal differ in their last bits: a nanosecond is nothing here.
   constexpr double kNothing_s = 1e-9;
-  const double time_s = (by_frames(fault.kind) ? slot.frame_time_s : slot.time_s) + kNothing_s;
-  if (fault.kind == FaultKind::kLampDrift) {
-    return time_s >= fault.at_s;
+  const bool frames = by_frames(fault.kind);
+  const double time_s = (frames ? slot.frame_time_s : slot.time_s) + kNothing_s;
+  if (time_s < fault.at_s) {
+    return false;
   }
-  const double period_s =
-      by_frames(fault.kind) && fault.for_s == 0.0 ? slot.period_s * (1.0 + 1e-6) : slot.period_s;
-  return time_s >= fault.at_s && time_s < end_of(fault, period_s);
+  if (fault.kind == FaultKind::kLampDrift) {
+    return true;  // it stays where it drifted to
+  }
+  if (fault.for_s > 0.0) {
+    return time_s < fault.at_s + fault.for_s;
+  }
+  // The first one at or after at_s is the one whose forerunner was before: a window of a period's
+  // length would miss it, or hit two, by the nanosecond to which the instants are rounded.
+  const double before_s = (frames ? slot.frame_time_before_s : slot.time_before_s) + kNothing_s;
+  return lasts_to_the_end(fault.kind) || before_s < fault.at_s;
 }
 
 void apply_to_light(const Fault& fault, double time_s, FieldFaults& to) {

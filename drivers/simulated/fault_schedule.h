@@ -13,9 +13,11 @@ namespace tubesight::drivers {
 
 /// When a field is exposed, by the camera's own clock.
 struct FieldSlot {
-  double time_s = 0.0;        ///< nominal mid-exposure
-  double frame_time_s = 0.0;  ///< that of the frame's first field: whole frames go by it
-  double period_s = 0.0;      ///< from field to field
+  double time_s = 0.0;               ///< nominal mid-exposure
+  double frame_time_s = 0.0;         ///< that of the frame's first field: whole frames go by it
+  double period_s = 0.0;             ///< from field to field
+  double time_before_s = 0.0;        ///< nominal mid-exposure of the field before
+  double frame_time_before_s = 0.0;  ///< that of the first field of the frame before
 };
 
 /// All that the faults do to one field.
@@ -44,8 +46,9 @@ struct FieldFaults {
   }
 };
 
-/// What `faults` do to the field of a slot. Several of a kind add up: lamps and shares multiply,
-/// knocks, jumps and shakes follow each other.
+/// What `faults` do to the field of a slot. Of several of a kind lamps multiply, dead lamps,
+/// knocks, jumps and shakes add up, fills and tears are the last one's, emi and salt-pepper the
+/// largest's.
 [[nodiscard]] FieldFaults faults_of(std::span<const Fault> faults, const FieldSlot& slot);
 
 /// How the faults shake the tool at an instant: T_tool_shaken, the identity without vibration.

@@ -113,7 +113,9 @@ core::FieldTime SimulatedWorld::slot_time(std::int64_t slot) const {
 
 FieldSlot SimulatedWorld::slot_at(std::int64_t slot) const {
   const std::int64_t first = interlaced_ ? slot - slot % 2 : slot;
-  return {seconds(slot_time(slot)), seconds(slot_time(first)), seconds(slot_time(1))};
+  const std::int64_t fields_a_frame = interlaced_ ? 2 : 1;
+  return {seconds(slot_time(slot)), seconds(slot_time(first)), seconds(slot_time(1)),
+          seconds(slot_time(slot - 1)), seconds(slot_time(first - fields_a_frame))};
 }
 
 Parity SimulatedWorld::parity_of(std::int64_t slot) const {

@@ -10,7 +10,10 @@ namespace tubesight::drivers {
 namespace {
 
 /// The slots of a camera of 30 interlaced frames a second.
-FieldSlot slot(int number) { return {number / 60.0, (number - number % 2) / 60.0, 1.0 / 60.0}; }
+FieldSlot slot(int number) {
+  const int first = number - number % 2;
+  return {number / 60.0, first / 60.0, 1.0 / 60.0, (number - 1) / 60.0, (first - 2) / 60.0};
+}
 
 Fault fault(FaultKind kind, double at_s, double for_s) {
   Fault made;
@@ -45,6 +48,18 @@ TEST(FaultsOf, WithoutALengthHitOneField) {
 TEST(FaultsOf, SwapAndCutWholeFrames) {
   EXPECT_EQ(hit(fault(FaultKind::kSwapped, 0.1, 0.0)), (std::vector<int>{6, 7}));
   EXPECT_EQ(hit(fault(FaultKind::kCut, 0.09, 0.05)), (std::vector<int>{6, 7, 8, 9}));
+}
+
+TEST(FaultsOf, WithoutALengthHitTheFirstFrameFromThereOn) {
+  for (const FaultKind kind : {FaultKind::kSwapped, FaultKind::kCut}) {
+    // Frames begin at 0, 0.0333, 0.0667, 0.1 and 0.1333 s, which is slot 8.
+    EXPECT_EQ(hit(fault(kind, 0.0, 0.0)), (std::vector<int>{0, 1})) << name_of(kind);
+    EXPECT_EQ(hit(fault(kind, 0.099, 0.0)), (std::vector<int>{6, 7})) << name_of(kind);
+    EXPECT_EQ(hit(fault(kind, 0.1, 0.0)), (std::vector<int>{6, 7})) << name_of(kind);
+    EXPECT_EQ(hit(fault(kind, 0.101, 0.0)), (std::vector<int>{8, 9})) << name_of(kind);
+    EXPECT_EQ(hit(fault(kind, 0.117, 0.0)), (std::vector<int>{8, 9})) << name_of(kind);
+    EXPECT_EQ(hit(fault(kind, 0.1333, 0.0)), (std::vector<int>{8, 9})) << name_of(kind);
+  }
 }
 
 TEST(FaultsOf, WithoutALengthWhatIsBrokenStaysBroken) {

@@ -247,6 +247,16 @@ TEST(FaultCut, LeavesOutWholeFrames) {
   EXPECT_EQ(silent[6].field.field.mid_exposure.count(), 166666667);
 }
 
+TEST(FaultCut, WithoutALengthLeavesOutTheNextFrame) {
+  Fault cut = fault(FaultKind::kCut);
+  cut.at_s = 0.101;  // just after the frame of slots 6 and 7 has begun
+  const auto fields = play({cut});
+
+  ASSERT_GT(fields.size(), 8U);
+  EXPECT_EQ(fields[7].field.slot, 7);
+  EXPECT_EQ(fields[8].field.slot, 10);
+}
+
 TEST(FaultJump, MovesTheToolByLatticeStepsAndShowsNothing) {
   Fault jump = fault(FaultKind::kJump);
   jump.rows = 1;
