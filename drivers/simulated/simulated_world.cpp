@@ -72,6 +72,9 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
   slots_ = fields_a_frame * std::max<std::int64_t>(1, std::llround(frames));
   slot_ = 0;
   unnumbered_ = 0;
+  jump_ = {};
+  told_ = {};
+  gap_ = false;
   events_taken_ = 0;
   started_ = false;
   lamp_permille_ = scenario.light.lamp_permille;
@@ -199,6 +202,7 @@ bool SimulatedWorld::next_slot(SimulatedField& out) {
   warm_lamp();
   Shutter shutter;
   out.truth = look(slot_, out.faults, shutter);
+  follow_slip(out);
   if (!out.lost) {
     expose(shutter, out);
   }
@@ -244,8 +248,25 @@ FieldTruth SimulatedWorld::look(std::int64_t number, const FieldFaults& faults, 
   const auto axis = truth_.axis(truth.T_sheet_tool);
   truth.axis_known = axis.has_value();
   truth.axis = axis.value_or(core::rendering::AxisTruth{});
-  truth.jumped = faults.has(FaultKind::kJump);
   return truth;
+}
+
+void SimulatedWorld::follow_slip(SimulatedField& out) {
+  if (!out.lost) {
+    const bool anew = std::any_of(out.events.begin(), out.events.end(), [](const core::Event& one) {
+      return one.kind == core::EventKind::kStart;
+    });
+    for (std::size_t i = 0; i < jump_.size(); ++i) {
+      if (anew) {
+        told_[i] = out.faults.jump[i];
+      } else if (gap_) {
+        told_[i] += out.faults.jump[i] - jump_[i];
+      }
+    }
+    jump_ = out.faults.jump;
+  }
+  gap_ = out.lost;
+  out.truth.slip = {jump_[0] - told_[0], jump_[1] - told_[1]};
 }
 
 void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {

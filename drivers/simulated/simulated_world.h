@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -28,7 +29,10 @@ struct FieldTruth {
   double speed_mm_s = 0.0;            ///< of the tip
   bool axis_known = false;            ///< the guidetube points at the sheet
   core::rendering::AxisTruth axis{};  ///< where, and the nearest tube
-  bool jumped = false;  ///< after a silent jump: what the box cannot know on a bare lattice
+  /// Lattice steps (rows, columns) of the jumps since the last start that nothing showed: a box on
+  /// a bare lattice names the true tube less these. A jump within a gap in sequence or time is
+  /// told, and not in it. Of the fields that next() and next_slot() make.
+  std::array<std::int32_t, 2> slip{};
 };
 
 /// One field, what came before it, and what is true of it.
@@ -117,6 +121,7 @@ class SimulatedWorld {
   FieldTruth look(std::int64_t slot, const FieldFaults& faults, Shutter& shutter);
   void expose(const Shutter& shutter, const SimulatedField& out);
   void draw(const core::rendering::Exposure& exposure, const FieldFaults& faults);
+  void follow_slip(SimulatedField& out);
   void warm_lamp();
   void follow_lamp_commands(const core::EventList& events);
 
@@ -131,8 +136,11 @@ class SimulatedWorld {
   core::rendering::PixelWindow window_;
   bool interlaced_ = true;
   std::int64_t slots_ = 0;
-  std::int64_t slot_ = 0;        ///< the next
-  std::int64_t unnumbered_ = 0;  ///< lost without a sequence number
+  std::int64_t slot_ = 0;               ///< the next
+  std::int64_t unnumbered_ = 0;         ///< lost without a sequence number
+  std::array<std::int32_t, 2> jump_{};  ///< of the last field delivered
+  std::array<std::int32_t, 2> told_{};  ///< of that, what a start or a gap let the box know
+  bool gap_ = false;                    ///< the last slot was not delivered
   std::size_t events_taken_ = 0;
   bool started_ = false;  ///< the clicks were handed over
   std::int32_t lamp_permille_ = 1000;

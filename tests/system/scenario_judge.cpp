@@ -31,13 +31,14 @@ void judge_field(const drivers::SimulatedField& field, const core::Sighting& sig
   const bool wrong_tube = sighting.aligned && (!right || !stands);
   const bool false_aligned = sighting.aligned && nearest.offset_mm > gate_mm + kSlack_mm;
   const bool wrong_nearest = sighting.tool_known && clear && !right;
-  if (field.truth.jumped) {
-    verdict.undetectable += wrong_tube || false_aligned || wrong_nearest ? 1 : 0;
-    return;
-  }
-  verdict.wrong_tube += wrong_tube ? 1 : 0;
+  // Off by just the steps that nothing showed: no box can know better. Nothing else is excused.
+  const auto& [rows, columns] = field.truth.slip;
+  const core::TubeAddress slipped{sighting.tool.row + rows, sighting.tool.column + columns};
+  const bool excused = (rows != 0 || columns != 0) && slipped == nearest.address;
+  verdict.undetectable += excused && (wrong_tube || wrong_nearest) ? 1 : 0;
+  verdict.wrong_tube += wrong_tube && !excused ? 1 : 0;
   verdict.false_aligned += false_aligned ? 1 : 0;
-  verdict.wrong_nearest += wrong_nearest ? 1 : 0;
+  verdict.wrong_nearest += wrong_nearest && !excused ? 1 : 0;
 }
 
 void judge_replies(const core::session::Output& output, ScenarioVerdict& verdict) {

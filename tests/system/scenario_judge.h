@@ -20,7 +20,7 @@ struct ScenarioVerdict {
   std::int64_t wrong_tube = 0;     ///< vouched for, and another tube or none is there
   std::int64_t false_aligned = 0;  ///< vouched for more than 0.3 mm outside the gate
   std::int64_t wrong_nearest = 0;  ///< named wrongly, 1.5 mm clear of half the pitch
-  std::int64_t undetectable = 0;   ///< wrong in any of these ways after a silent jump
+  std::int64_t undetectable = 0;   ///< another tube named, off by just the silent jumps' steps
   std::int64_t claims = 0;
   std::int64_t contradicted = 0;
   std::int64_t confirmed = 0;

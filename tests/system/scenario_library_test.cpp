@@ -89,5 +89,20 @@ TEST(ScenarioLibraryJudge, FindsWhatIsWrongWhenTheBoxIsToldOfAnotherTube) {
   EXPECT_GT(verdict.wrong_nearest, 0);
 }
 
+TEST(ScenarioLibraryJudge, ExcusesAfterAJumpNothingButItsSteps) {
+  const auto file = load("fault-jump");
+  ASSERT_NE(file, nullptr);
+  for (core::StartPoint& click : file->scenario.told.start.tubes) {
+    click.address.row += 1;
+  }
+
+  const ScenarioVerdict verdict = judge_scenario(*file);
+
+  // A row off from the first field to the last, and a column too from the jump on.
+  EXPECT_EQ(verdict.undetectable, 0) << verdict.text();
+  EXPECT_EQ(verdict.end, core::TrackState::kTracking);
+  EXPECT_GT(verdict.wrong_nearest, verdict.fields / 2);
+}
+
 }  // namespace
 }  // namespace tubesight::tests

@@ -107,7 +107,7 @@ void append_truth_row(std::string& out, const FieldPlace& place,
   append_number(out, std::int64_t{aligned});
   append_number(out, std::int64_t{field.lamp_permille});
   out += fault_words(field.faults);
-  out += truth.jumped ? ",1\n" : ",0\n";
+  out += truth.slip != std::array<std::int32_t, 2>{} ? ",1\n" : ",0\n";
 }
 
 void append_true_center_rows(std::string& out, const FieldPlace& place,

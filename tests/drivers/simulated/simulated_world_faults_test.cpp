@@ -265,11 +265,61 @@ TEST(FaultJump, MovesTheToolByLatticeStepsAndShowsNothing) {
 
   ASSERT_GT(fields.size(), 8U);
   EXPECT_EQ(fields[5].field.truth.axis.nearest.address, (core::TubeAddress{40, 60}));
-  EXPECT_FALSE(fields[5].field.truth.jumped);
+  EXPECT_EQ(fields[5].field.truth.slip, (std::array<std::int32_t, 2>{0, 0}));
   EXPECT_EQ(fields[6].field.truth.axis.nearest.address, (core::TubeAddress{41, 58}));
   EXPECT_NEAR(fields[6].field.truth.axis.nearest.offset_mm, 0.5, 1e-9);
-  EXPECT_TRUE(fields[6].field.truth.jumped);
+  EXPECT_EQ(fields[6].field.truth.slip, (std::array<std::int32_t, 2>{1, -2}));
   EXPECT_EQ(fields[6].field.field.sequence, 6);
+}
+
+/// Slips of the first fields, by slots; lost ones have 9.
+std::vector<int> column_slips(const std::vector<Fault>& faults, double start_s = -1.0) {
+  const auto scenario = small_scenario();
+  scenario->faults = faults;
+  scenario->video.length_s = 0.2;
+  if (start_s >= 0.0) {
+    ScenarioEvent start;
+    start.at_s = start_s;
+    start.event.kind = core::EventKind::kStart;
+    scenario->events = {start};
+  }
+  const auto world = std::make_unique<SimulatedWorld>();
+  EXPECT_TRUE(world->configure(*scenario));
+  std::vector<int> slips;
+  SimulatedField field;
+  while (world->next_slot(field)) {
+    slips.push_back(field.lost ? 9 : field.truth.slip[1]);
+  }
+  return slips;
+}
+
+TEST(FaultJump, IsSilentUntilItEnds) {
+  Fault jump = fault(FaultKind::kJump, 0.04);  // slots 6, 7, 8
+  jump.columns = 2;
+
+  EXPECT_EQ(column_slips({jump}), (std::vector<int>{0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}));
+}
+
+TEST(FaultJump, IsNotSilentInAGap) {
+  Fault jump = fault(FaultKind::kJump);
+  jump.columns = 2;
+  Fault dropped = fault(FaultKind::kDropped);
+  dropped.at_s = 0.075;  // slot 5, before the jump
+  Fault cut = fault(FaultKind::kCut);
+  cut.told = false;  // slots 6 and 7: time shows it
+  Fault later = fault(FaultKind::kDropped);
+  later.at_s = 0.11;  // slot 7, after the jump
+
+  EXPECT_EQ(column_slips({jump, dropped}), (std::vector<int>{0, 0, 0, 0, 0, 9, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(column_slips({jump, cut}), (std::vector<int>{0, 0, 0, 0, 0, 0, 9, 9, 0, 0, 0, 0}));
+  EXPECT_EQ(column_slips({jump, later}), (std::vector<int>{0, 0, 0, 0, 0, 0, 2, 9, 2, 2, 2, 2}));
+}
+
+TEST(FaultJump, IsKnownToWhoStartsAnew) {
+  Fault jump = fault(FaultKind::kJump, 0.08);  // slots 6 to 10
+  jump.columns = 2;
+
+  EXPECT_EQ(column_slips({jump}, 0.13), (std::vector<int>{0, 0, 0, 0, 0, 0, 2, 2, 0, 0, 0, -2}));
 }
 
 TEST(FaultEmi, DisturbsSomeLines) {

@@ -68,6 +68,20 @@ TEST(TruthRow, NothingIsAlignedUnderAVoidOrBeyondTheGate) {
   EXPECT_EQ(ends(field), "0");
 }
 
+TEST(TruthRow, IsUndetectableWhileASilentJumpIsAtWork) {
+  const auto ends = [](const drivers::SimulatedField& field) {
+    std::string row;
+    append_truth_row(row, {0, 0}, field, {}, 2.5);
+    return row.substr(row.rfind(','));
+  };
+  drivers::SimulatedField field = a_field();
+  field.faults.kinds = 1U << static_cast<unsigned>(drivers::FaultKind::kJump);
+
+  EXPECT_EQ(ends(field), ",0\n") << "it was told, or there was a start since";
+  field.truth.slip = {0, -1};
+  EXPECT_EQ(ends(field), ",1\n");
+}
+
 TEST(TrueCenterRows, TellTheTubesWhoseCentreIsInThePicture) {
   core::CameraSettings camera;
   camera.width_px = 635;
