@@ -12,6 +12,7 @@
 #include "board/bench/simulate/scenario_file.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
+#include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -72,8 +73,19 @@ class OneMove {
     return runner_.run(scenario, {!options_.without_margin_check, stop_at_wrong});
   }
 
+  // Faults of whole frames are drawn between two now and then; a scenario file may hold none that
+  // does nothing.
+  void drop_idle_faults() {
+    const auto world = std::make_unique<drivers::SimulatedWorld>();
+    if (world->configure(*scenario_)) {
+      std::erase_if(scenario_->faults,
+                    [&](const drivers::Fault& fault) { return !world->hits(fault); });
+    }
+  }
+
   // Reads the file back: what it says must be what was run.
   ExitStatus write(const std::string& stratum) {
+    drop_idle_faults();
     const std::string title = "Campaign move " + options_.one_move + " (" + stratum + ")";
     if (!file_.write(std::string_view(scenario_text(*scenario_, title))) || !file_.commit()) {
       tell(file_.message());

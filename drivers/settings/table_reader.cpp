@@ -287,18 +287,22 @@ void TableReader::finish() {
 }
 
 void TableReader::complain(std::string_view key, const std::string& text) {
+  problems_->push_back({place_of(key), path(key) + ": " + text});
+}
+
+void TableReader::complain_entry(std::string_view key, std::size_t index, const toml::node& entry,
+                                 const std::string& text) {
+  problems_->push_back({place_of(entry), path(key) + "[" + std::to_string(index) + "]: " + text});
+}
+
+SettingsPlace TableReader::place_of(std::string_view key) const {
   SettingsPlace place = place_;
   for (const auto& [candidate, node] : *table_) {
     if (candidate.str() == key) {
       place.line = std::max<std::int64_t>(1, candidate.source().begin.line);
     }
   }
-  problems_->push_back({place, path(key) + ": " + text});
-}
-
-void TableReader::complain_entry(std::string_view key, std::size_t index, const toml::node& entry,
-                                 const std::string& text) {
-  problems_->push_back({place_of(entry), path(key) + "[" + std::to_string(index) + "]: " + text});
+  return place;
 }
 
 SettingsPlace TableReader::place_of(const toml::node& node) const {

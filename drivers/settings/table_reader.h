@@ -81,6 +81,9 @@ class TableReader {
   /// Where a node stands.
   [[nodiscard]] SettingsPlace place_of(const toml::node& node) const;
 
+  /// Where a key stands; the table, where it has no such key.
+  [[nodiscard]] SettingsPlace place_of(std::string_view key) const;
+
   /// Where the table stands.
   [[nodiscard]] SettingsPlace place() const { return place_; }
 

@@ -69,4 +69,9 @@ struct Fault {
          kind == FaultKind::kLampsDead || kind == FaultKind::kJump;
 }
 
+/// Whether a fault takes whole frames, by the instant of their first field.
+[[nodiscard]] constexpr bool by_frames(FaultKind kind) {
+  return kind == FaultKind::kSwapped || kind == FaultKind::kCut;
+}
+
 }  // namespace tubesight::drivers

@@ -23,8 +23,6 @@ Eigen::Matrix3d rotation_about(const std::array<double, 3>& axis, double angle_r
          (1.0 - std::cos(angle_rad)) * cross * cross;
 }
 
-bool by_frames(FaultKind kind) { return kind == FaultKind::kSwapped || kind == FaultKind::kCut; }
-
 bool at_work(const Fault& fault, const FieldSlot& slot) {
   // Times that should be equal differ in their last bits: a nanosecond is nothing here.
   constexpr double kNothing_s = 1e-9;

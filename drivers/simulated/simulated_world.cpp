@@ -219,6 +219,21 @@ FieldFaults SimulatedWorld::faults_at(std::int64_t slot) const {
   return faults_of(scenario_->faults, slot_at(slot));
 }
 
+bool SimulatedWorld::hits(const Fault& fault) const {
+  // The first field or frame from its beginning on has it, or none: found from a little before.
+  constexpr std::int64_t kBefore = 3;
+  constexpr std::int64_t kAfter = 5;
+  const auto about = static_cast<std::int64_t>(
+      std::min(fault.at_s / seconds(slot_time(1)), static_cast<double>(slots_)));
+  const std::int64_t to = std::min(slots_, about + kAfter);
+  for (std::int64_t slot = std::max<std::int64_t>(0, about - kBefore); slot < to; ++slot) {
+    if (faults_of({&fault, 1}, slot_at(slot)).has(fault.kind)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 FieldTruth SimulatedWorld::truth_of(std::int64_t slot) {
   Shutter ignored;
   return look(slot, faults_at(slot), ignored);

@@ -84,6 +84,9 @@ class SimulatedWorld {
   /// What the faults do to a slot.
   [[nodiscard]] FieldFaults faults_at(std::int64_t slot) const;
 
+  /// Whether a fault, of the scenario or not, has a slot of the recording to act on.
+  [[nodiscard]] bool hits(const Fault& fault) const;
+
   /// What is true of a slot, without drawing it. With a ToolMotion: not before the last field.
   [[nodiscard]] FieldTruth truth_of(std::int64_t slot);
 

@@ -1,10 +1,27 @@
 #include "board/bench/simulate/lattice_geometry.h"
 
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "drivers/settings/session_checks.h"
+
 namespace tubesight::board {
+namespace {
+
+std::string rounded(double value) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5).ptr;
+  return {text, end};
+}
+
+std::string place_text(const std::array<double, 2>& point_mm) {
+  return "(" + rounded(point_mm[0]) + ", " + rounded(point_mm[1]) + ") mm";
+}
+
+}  // namespace
 
 using core::TubeAddress;
 
@@ -50,6 +67,20 @@ TubeAddress nearest_address(const core::TubesheetSettings& sheet,
     }
   }
   return nearest;
+}
+
+std::string why_off_the_sheet(const core::TubesheetSettings& sheet,
+                              const std::array<double, 2>& point_mm) {
+  const auto at = lattice_place(sheet, point_mm);
+  constexpr double kHalfAStep = 0.5;
+  const bool inside = at[0] >= sheet.rows[0] - kHalfAStep && at[0] <= sheet.rows[1] + kHalfAStep &&
+                      at[1] >= sheet.columns[0] - kHalfAStep &&
+                      at[1] <= sheet.columns[1] + kHalfAStep;
+  if (inside) {
+    return {};
+  }
+  return place_text(point_mm) + " is off the sheet, at row " + rounded(at[0]) + " and column " +
+         rounded(at[1]) + ", expected " + drivers::ranges_text(sheet);
 }
 
 }  // namespace tubesight::board

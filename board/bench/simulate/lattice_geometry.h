@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "core/base/settings.h"
 #include "core/base/tube_address.h"
@@ -18,5 +19,10 @@ namespace tubesight::board {
 /// The address of the lattice that exists by parity and is nearest to a point of the sheet.
 [[nodiscard]] core::TubeAddress nearest_address(const core::TubesheetSettings& sheet,
                                                 const std::array<double, 2>& point_mm);
+
+/// Empty where the tool may be, up to half a step beyond the last rows and columns; else what is
+/// wrong with the point and what was expected.
+[[nodiscard]] std::string why_off_the_sheet(const core::TubesheetSettings& sheet,
+                                            const std::array<double, 2>& point_mm);
 
 }  // namespace tubesight::board

@@ -21,7 +21,7 @@ constexpr std::array<EventKind, 6> kKinds = {EventKind::kClaim,       EventKind:
                                              EventKind::kPick,        EventKind::kAcknowledge};
 
 void read_event(TableReader& table, const core::SessionSettings& told, double length_s,
-                std::vector<drivers::ScenarioEvent>& events, std::vector<ClickWish>& wishes) {
+                ScenarioEvents& to) {
   drivers::ScenarioEvent told_event;
   std::size_t kind = 0;
   if (table.number("at_s", {0.0, 86400.0, " s"}, told_event.at_s) && length_s > 0.0 &&
@@ -50,20 +50,20 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
   } else if (event.kind == EventKind::kStart) {
     ClickWish wish;
     wish.at_s = told_event.at_s;
-    wish.event = static_cast<std::ptrdiff_t>(events.size());
+    wish.event = static_cast<std::ptrdiff_t>(to.events->size());
     read_click_wish(table, told.tubesheet, wish);
-    wishes.push_back(wish);
+    to.wishes->push_back(wish);
   }
-  events.push_back(told_event);
+  to.events->push_back(told_event);
+  to.places->push_back({table.name() + ".at_s", table.place_of("at_s")});
 }
 
 }  // namespace
 
 void read_events(drivers::SettingsDocument& document, const core::SessionSettings& told,
-                 double length_s, std::vector<drivers::ScenarioEvent>& events,
-                 std::vector<ClickWish>& wishes) {
+                 double length_s, ScenarioEvents to) {
   drivers::read_each_table(document, "event", [&](TableReader& table, std::size_t) {
-    read_event(table, told, length_s, events, wishes);
+    read_event(table, told, length_s, to);
   });
 }
 

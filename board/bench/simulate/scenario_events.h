@@ -3,16 +3,22 @@
 #include <vector>
 
 #include "board/bench/simulate/scenario_clicks.h"
+#include "board/bench/simulate/scenario_effects.h"
 #include "core/base/settings.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/simulated/scenario.h"
 
 namespace tubesight::board {
 
-/// Reads each `[[event]]` and appends it to `events`; the clicks of starts are wished for in
-/// `wishes`. `length_s` is the recording's.
+/// What events are read into.
+struct ScenarioEvents {
+  std::vector<drivers::ScenarioEvent>* events;
+  std::vector<EventPlace>* places;  ///< one an event
+  std::vector<ClickWish>* wishes;   ///< for the clicks of starts
+};
+
+/// Reads each `[[event]]` and appends it. `length_s` is the recording's.
 void read_events(drivers::SettingsDocument& document, const core::SessionSettings& told,
-                 double length_s, std::vector<drivers::ScenarioEvent>& events,
-                 std::vector<ClickWish>& wishes);
+                 double length_s, ScenarioEvents to);
 
 }  // namespace tubesight::board

@@ -136,8 +136,9 @@ void read_time(TableReader& table, const FaultContext& context, Fault& fault) {
 }  // namespace
 
 bool read_faults(drivers::SettingsDocument& document, const FaultContext& context,
-                 std::vector<Fault>& faults) {
+                 std::vector<Fault>& faults, std::vector<FaultPlaces>& places) {
   faults.clear();
+  places.clear();
   return drivers::read_each_table(document, "fault", [&](TableReader& table, std::size_t) {
     Fault fault;
     std::size_t kind = 0;
@@ -158,6 +159,8 @@ bool read_faults(drivers::SettingsDocument& document, const FaultContext& contex
       table.complain("for_s", "missing or 0, expected how long it lasts");
     }
     faults.push_back(fault);
+    places.push_back(
+        {table.name(), table.place_of("at_s"), table.place_of("for_s"), table.place_of("steps")});
   });
 }
 

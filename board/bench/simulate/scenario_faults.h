@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "board/bench/simulate/scenario_effects.h"
 #include "core/base/settings.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/simulated/fault.h"
@@ -15,8 +16,9 @@ struct FaultContext {
   core::AddressParity addresses = core::AddressParity::kAll;
 };
 
-/// Reads each `[[fault]]` into `faults`, replacing them. Says whether all was well.
+/// Reads each `[[fault]]` into `faults`, replacing them, and where it stands into `places`. Says
+/// whether all was well.
 bool read_faults(drivers::SettingsDocument& document, const FaultContext& context,
-                 std::vector<drivers::Fault>& faults);
+                 std::vector<drivers::Fault>& faults, std::vector<FaultPlaces>& places);
 
 }  // namespace tubesight::board

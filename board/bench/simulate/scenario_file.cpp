@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "board/bench/simulate/scenario_clicks.h"
+#include "board/bench/simulate/scenario_effects.h"
 #include "board/bench/simulate/scenario_events.h"
 #include "board/bench/simulate/scenario_faults.h"
 #include "board/bench/simulate/scenario_path.h"
@@ -98,6 +99,8 @@ class ScenarioReading {
   bool video_ = false;
   std::uint64_t sheet_seed_ = 1;
   std::vector<ClickWish> wishes_;
+  std::vector<FaultPlaces> fault_places_;
+  std::vector<EventPlace> event_places_;
 };
 
 void ScenarioReading::read_names() {
@@ -212,9 +215,11 @@ void ScenarioReading::read_motion() {
   double length_s = to_->video.length_s;
   to_->path.clear();
   to_->events.clear();
+  event_places_.clear();
   if (sheet_) {
     PathReader path(to_->told.tubesheet, to_->seed, *to_);
     const bool sound = path.read(*document_);
+    event_places_ = path.claims();
     if (!sound) {
       length_s = 0.0;
     } else if (length_s <= 0.0) {
@@ -229,8 +234,8 @@ void ScenarioReading::read_motion() {
   }
   const FaultContext context{length_s, to_->told.camera.scan != core::Scan::kProgressive,
                              to_->told.tubesheet.addresses};
-  read_faults(*document_, context, to_->faults);
-  read_events(*document_, to_->told, length_s, to_->events, wishes_);
+  read_faults(*document_, context, to_->faults, fault_places_);
+  read_events(*document_, to_->told, length_s, {&to_->events, &event_places_, &wishes_});
 }
 
 void ScenarioReading::read_expectation() {
@@ -295,6 +300,8 @@ void ScenarioReading::play() {
       complain(wish.place, wish.name + ": " + wrong);
     }
   }
+  check_faults(*to_, *world, fault_places_, document_->problems());
+  check_events(*to_, *world, event_places_, document_->problems());
   std::stable_sort(to_->events.begin(), to_->events.end(),
                    [](const drivers::ScenarioEvent& a, const drivers::ScenarioEvent& b) {
                      return a.at_s < b.at_s;

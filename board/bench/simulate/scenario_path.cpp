@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -50,17 +49,6 @@ constexpr std::array<std::string_view, 12> kManners = {
 constexpr const char* kOneAction =
     "one of rest_s, to, to_mm, height_mm, dock_mm, heading_deg, lean_deg, tour";
 
-std::string rounded(double value) {
-  char text[40];
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 5).ptr;
-  return {text, end};
-}
-
-std::string place_text(const std::array<double, 2>& point_mm) {
-  return "(" + rounded(point_mm[0]) + ", " + rounded(point_mm[1]) + ") mm";
-}
-
 }  // namespace
 
 PathReader::PathReader(const core::TubesheetSettings& sheet, std::uint64_t seed,
@@ -75,6 +63,7 @@ PathReader::~PathReader() = default;
 bool PathReader::read(drivers::SettingsDocument& document) {
   scenario_->path.clear();
   scenario_->events.clear();
+  claims_.clear();
   const bool start =
       drivers::read_table(document, "path", true, [&](TableReader& table) { read_start(table); });
   if (!start) {
@@ -116,7 +105,7 @@ void PathReader::read_start(TableReader& table) {
   from.y_mm = place[1] + offset[1];
   from.beta_deg = lean[0];
   from.gamma_deg = lean[1];
-  if (const std::string wrong = placed ? why_off_the_sheet({from.x_mm, from.y_mm}) : "";
+  if (const std::string wrong = placed ? why_off_the_sheet(*sheet_, {from.x_mm, from.y_mm}) : "";
       !wrong.empty()) {
     table.complain(key, wrong);
   }
@@ -208,7 +197,8 @@ void PathReader::read_rest(TableReader& table) {
   }
   const double from_s = path_->duration_s();
   if (table.number("rest_s", kRest, rest.rest_s) && append(table, "rest_s", rest) && claims) {
-    claim(tube, from_s + rest.rest_s / 2.0);
+    claim(table, table.has("claim_tube") ? "claim_tube" : "claim", tube,
+          from_s + rest.rest_s / 2.0);
   }
 }
 
@@ -293,7 +283,7 @@ void PathReader::visit(TableReader& table, TubeAddress tube, double rest_s, bool
   }
   const double from_s = path_->duration_s();
   if (append(table, "tour", rest) && claims) {
-    claim(tube, from_s + rest_s / 2.0);
+    claim(table, "tour", tube, from_s + rest_s / 2.0);
   }
 }
 
@@ -310,7 +300,7 @@ bool PathReader::read_tube(TableReader& table, std::string_view key, TubeAddress
 
 bool PathReader::append(TableReader& table, std::string_view key, const PathSegment& segment) {
   if (segment.kind == SegmentKind::kMove) {
-    if (const std::string wrong = why_off_the_sheet(segment.to_mm); !wrong.empty()) {
+    if (const std::string wrong = why_off_the_sheet(*sheet_, segment.to_mm); !wrong.empty()) {
       table.complain(key, wrong);
       return false;
     }
@@ -327,25 +317,14 @@ bool PathReader::append(TableReader& table, std::string_view key, const PathSegm
   return true;
 }
 
-void PathReader::claim(TubeAddress tube, double at_s) {
+void PathReader::claim(const TableReader& table, std::string_view key, TubeAddress tube,
+                       double at_s) {
   drivers::ScenarioEvent told;
   told.at_s = at_s;
   told.event.kind = core::EventKind::kClaim;
   told.event.claim = tube;
   scenario_->events.push_back(told);
-}
-
-std::string PathReader::why_off_the_sheet(const std::array<double, 2>& point_mm) const {
-  const auto at = lattice_place(*sheet_, point_mm);
-  constexpr double kHalfAStep = 0.5;
-  const bool inside =
-      at[0] >= sheet_->rows[0] - kHalfAStep && at[0] <= sheet_->rows[1] + kHalfAStep &&
-      at[1] >= sheet_->columns[0] - kHalfAStep && at[1] <= sheet_->columns[1] + kHalfAStep;
-  if (inside) {
-    return {};
-  }
-  return place_text(point_mm) + " is off the sheet, at row " + rounded(at[0]) + " and column " +
-         rounded(at[1]) + ", expected " + drivers::ranges_text(*sheet_);
+  claims_.push_back({table.name() + "." + std::string(key), table.place_of(key), true});
 }
 
 /// Where a robot stops instead of exactly under the tube.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "board/bench/simulate/scenario_effects.h"
 #include "core/base/settings.h"
 #include "core/kinematics/tool_path.h"
 #include "drivers/settings/settings_document.h"
@@ -29,6 +30,9 @@ class PathReader {
   /// Of the whole path.
   [[nodiscard]] const core::kinematics::ToolPath& path() const { return *path_; }
 
+  /// Where the claims stand, one an event that was read.
+  [[nodiscard]] const std::vector<EventPlace>& claims() const { return claims_; }
+
  private:
   /// How a step moves.
   struct Manner {
@@ -48,13 +52,14 @@ class PathReader {
               const core::kinematics::PathSegment& segment);
   void visit(drivers::TableReader& table, core::TubeAddress tube, double rest_s, bool claim,
              core::kinematics::PathSegment move);
-  void claim(core::TubeAddress tube, double at_s);
-  [[nodiscard]] std::string why_off_the_sheet(const std::array<double, 2>& point_mm) const;
+  void claim(const drivers::TableReader& table, std::string_view key, core::TubeAddress tube,
+             double at_s);
   [[nodiscard]] std::array<double, 2> scattered();
 
   const core::TubesheetSettings* sheet_;
   drivers::Scenario* scenario_;
   std::unique_ptr<core::kinematics::ToolPath> path_;
+  std::vector<EventPlace> claims_;
   Manner manner_;
   double scatter_mm_ = 0.0;
   std::uint64_t draws_ = 0;
