@@ -99,7 +99,7 @@ void read_addresses(TableReader& table, std::string_view key,
     const toml::node& entry = (*entries)[i];
     TubeAddress address;
     if (!read_address(entry, address)) {
-      table.complain_entry(key, i, entry, describe(entry) + ", expected [row, column]");
+      table.complain_entry(key, i, entry, why_no_address(entry));
     } else if (ranges_known && !in_ranges(tubesheet, address)) {
       table.complain_entry(key, i, entry,
                            address_text(address) + ", expected " + ranges_text(tubesheet));

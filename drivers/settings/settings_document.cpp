@@ -76,8 +76,9 @@ core::Result<void> SettingsDocument::report(Messages& messages) {
       break;
     }
     const SettingsProblem& problem = problems_[i];
-    messages.push_back(names_[static_cast<std::size_t>(problem.place.file)] + ":" +
-                       std::to_string(problem.place.line) + ": " + problem.text);
+    const std::int64_t line = problem.place.line;
+    messages.push_back(names_[static_cast<std::size_t>(problem.place.file)] +
+                       (line > 0 ? ":" + std::to_string(line) : "") + ": " + problem.text);
   }
   return problems_.empty() ? core::Result<void>() : core::Unexpected(core::Error::kInvalidArgument);
 }
@@ -92,6 +93,7 @@ void SettingsDocument::load_file(const std::string& path, SettingsPlace from) {
   }
   if (names_.size() == kMostFiles) {
     complain(from, "include: more than 64 files, expected fewer");
+    complete_ = false;
     return;
   }
   std::string text;
@@ -100,8 +102,11 @@ void SettingsDocument::load_file(const std::string& path, SettingsPlace from) {
     if (names_.empty()) {
       names_.push_back(path);
     }
-    const std::string what = including_.empty() ? "" : "include: " + in_quotes(path) + " ";
-    complain(from, what + "cannot be read: " + why);
+    if (including_.empty()) {
+      complain({0, 0}, "cannot be read: " + why);  // it has no line
+    } else {
+      complain(from, "include: " + in_quotes(path) + " cannot be read: " + why);
+    }
     complete_ = false;
     return;
   }
@@ -149,6 +154,7 @@ void SettingsDocument::take_includes(const toml::node& node, SettingsPlace place
   const auto* const list = node.as_array();
   if (list == nullptr) {
     complain(place, "include: not a list, expected [\"file.toml\", ...]");
+    complete_ = false;
     return;
   }
   for (const toml::node& entry : *list) {
@@ -156,6 +162,7 @@ void SettingsDocument::take_includes(const toml::node& node, SettingsPlace place
     const auto* const name = entry.as_string();
     if (name == nullptr || name->get().empty()) {
       complain(at, "include: not a file's name, expected [\"file.toml\", ...]");
+      complete_ = false;
       continue;
     }
     load_file((std::filesystem::path(path).parent_path() / name->get()).string(), at);

@@ -35,7 +35,8 @@ class SettingsDocument {
   /// The table of that name, or null when no file has it.
   [[nodiscard]] const SettingsTable* find(std::string_view name) const;
 
-  /// Whether all files could be read and are TOML, so that a table not found is a table missing.
+  /// Whether all files that were to be included could be read and are TOML, so that a table not
+  /// found is a table missing.
   [[nodiscard]] bool complete() const { return complete_; }
 
   /// The files opened, in that order.

@@ -25,6 +25,9 @@ std::string number_text(double value) {
   return {text, end};
 }
 
+constexpr WholeRange kAnyWhole{std::numeric_limits<std::int32_t>::min(),
+                               std::numeric_limits<std::int32_t>::max()};
+
 std::string expected_text(const NumberRange& range) {
   return "a number from " + number_text(range.least) + " to " + number_text(range.most) +
          range.unit;
@@ -78,10 +81,20 @@ std::string describe(const toml::node& node) {
 
 bool read_address(const toml::node& node, core::TubeAddress& address) {
   const auto* const pair = node.as_array();
-  constexpr WholeRange kAny{std::numeric_limits<std::int32_t>::min(),
-                            std::numeric_limits<std::int32_t>::max()};
-  return pair != nullptr && pair->size() == 2 && read_whole((*pair)[0], kAny, address.row) &&
-         read_whole((*pair)[1], kAny, address.column);
+  return pair != nullptr && pair->size() == 2 && read_whole((*pair)[0], kAnyWhole, address.row) &&
+         read_whole((*pair)[1], kAnyWhole, address.column);
+}
+
+std::string why_no_address(const toml::node& node) {
+  constexpr const char* kExpected = ", expected [row, column]";
+  const auto* const pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2) {
+    return describe(node) + kExpected;
+  }
+  core::TubeAddress ignored;
+  const bool row = read_whole((*pair)[0], kAnyWhole, ignored.row);
+  return "the " + std::string(row ? "column " : "row ") + describe((*pair)[row ? 1 : 0]) +
+         kExpected + ", each " + expected_text(kAnyWhole);
 }
 
 TableReader::TableReader(const toml::table& table, SettingsPlace place, std::string name,
@@ -251,7 +264,7 @@ bool TableReader::address(std::string_view key, core::TubeAddress& value) {
   }
   const bool good = read_address(*node, value);
   if (!good) {
-    complain(key, describe(*node) + ", expected [row, column]");
+    complain(key, why_no_address(*node));
   }
   return good;
 }

@@ -105,6 +105,10 @@ class TableReader {
 /// Two whole numbers [row, column]; false for anything else.
 [[nodiscard]] bool read_address(const toml::node& node, core::TubeAddress& address);
 
+/// What keeps a node from being an address, and what was expected; of one that read_address()
+/// refuses.
+[[nodiscard]] std::string why_no_address(const toml::node& node);
+
 /// What a node is or holds, in a few words for a message: "the text 'abc'", "12.5".
 [[nodiscard]] std::string describe(const toml::node& node);
 

@@ -82,6 +82,25 @@ INSTANTIATE_TEST_SUITE_P(
                 "expected another window, height or tool"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
 
+TEST(Simulate, NamesNoLineOfAFileThatIsNotThere) {
+  const TemporaryFolder folder;
+
+  EXPECT_EQ(simulate(folder).err, "s.toml: cannot be read: No such file or directory\n");
+}
+
+TEST(Simulate, SaysNothingOfTablesThatAFailedIncludeMayHold) {
+  const TemporaryFolder folder;
+  for (const char* const include :
+       {"include = [\"gone.toml\"]\n", "include = \"gone.toml\"\n", "include = [7]\n"}) {
+    folder.write("s.toml", include);
+
+    const ProgramRun run = simulate(folder);
+
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(lines_of(run.err), 1) << run.err;
+  }
+}
+
 TEST(Simulate, TellsAllMistakesAtOnce) {
   const TemporaryFolder folder;
   std::string text = replaced(small_scenario_text(), "bore_mm = 18.6", "bore_mm = 1860");

@@ -75,7 +75,7 @@ TEST(SettingsDocument, TellsAFileThatCannotBeRead) {
   MemoryFiles files;
 
   EXPECT_EQ(mistakes_of(files, "none.toml"),
-            Messages{"none.toml:1: cannot be read: No such file or directory"});
+            Messages{"none.toml: cannot be read: No such file or directory"});
 }
 
 TEST(SettingsDocument, TellsUnknownTablesAndKeys) {
