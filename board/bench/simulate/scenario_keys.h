@@ -16,7 +16,8 @@ struct NumberKey {
   double Struct::*member;
 };
 
-// What the scene looks like, for the reader and the writer of scenarios.
+// What the scene looks like, for the reader and the writer of scenarios. The ranges are within the
+// renderer's, which refuses a scene without saying of which number.
 
 using core::rendering::GuidetubeLook;
 using core::rendering::LampLook;
@@ -25,7 +26,7 @@ using core::rendering::SheetLook;
 
 /// `[look]`
 inline constexpr std::array kSheetLookKeys = {
-    NumberKey<SheetLook>{"plate", {0.0, 1.0, ""}, &SheetLook::plate},
+    NumberKey<SheetLook>{"plate", {0.01, 1.0, ""}, &SheetLook::plate},
     NumberKey<SheetLook>{"gloss", {0.0, 1.0, ""}, &SheetLook::gloss},
     NumberKey<SheetLook>{"texture", {0.0, 0.5, ""}, &SheetLook::texture},
     NumberKey<SheetLook>{"stains", {0.0, 0.5, ""}, &SheetLook::stains},
@@ -50,7 +51,7 @@ inline constexpr std::array kLampLookKeys = {
     NumberKey<LampLook>{"below_tip_mm", {0.0, 500.0, " mm"}, &LampLook::below_tip_mm},
     NumberKey<LampLook>{"strength", {0.0, 10.0, ""}, &LampLook::strength},
     NumberKey<LampLook>{"tilt_deg", {-60.0, 60.0, " degrees"}, &LampLook::tilt_deg},
-    NumberKey<LampLook>{"beam", {0.0, 60.0, ""}, &LampLook::beam},
+    NumberKey<LampLook>{"beam", {0.0, 8.0, ""}, &LampLook::beam},
     NumberKey<LampLook>{"ambient", {0.0, 1.0, ""}, &LampLook::ambient},
     NumberKey<LampLook>{"led_radius_mm", {1.0, 100.0, " mm"}, &LampLook::led_radius_mm},
     NumberKey<LampLook>{"led_strength", {0.0, 10.0, ""}, &LampLook::led_strength},
@@ -63,7 +64,7 @@ inline constexpr std::array kSensorLookKeys = {
     NumberKey<SensorLook>{"veil", {0.0, 0.5, ""}, &SensorLook::veil},
     NumberKey<SensorLook>{"blooming", {0.0, 1.0, ""}, &SensorLook::blooming},
     NumberKey<SensorLook>{"blooming_px", {1.0, 100.0, " px"}, &SensorLook::blooming_px},
-    NumberKey<SensorLook>{"gain", {0.0, 10.0, ""}, &SensorLook::gain},
+    NumberKey<SensorLook>{"gain", {0.01, 10.0, ""}, &SensorLook::gain},
     NumberKey<SensorLook>{"offset", {-50.0, 200.0, ""}, &SensorLook::offset},
     NumberKey<SensorLook>{"saturation", {16.0, 255.0, ""}, &SensorLook::saturation},
     NumberKey<SensorLook>{"shot_noise", {0.0, 2.0, ""}, &SensorLook::shot_noise},

@@ -194,6 +194,10 @@ void PathReader::read_rest(TableReader& table) {
     claims = read_tube(table, "claim_tube", tube);
   } else {
     table.ignore("claim_tube");
+    if (const std::string wrong = claims ? drivers::why_no_tube(*sheet_, tube) : "";
+        !wrong.empty()) {
+      table.complain("claim", wrong);  // a robot that knows of the void claims nothing there
+    }
   }
   const double from_s = path_->duration_s();
   if (table.number("rest_s", kRest, rest.rest_s) && append(table, "rest_s", rest) && claims) {

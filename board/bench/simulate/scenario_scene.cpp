@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "board/bench/simulate/scenario_keys.h"
+#include "board/bench/simulate/settings_text.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/table_reader.h"
@@ -79,7 +80,7 @@ void read_tubes(TableReader& table, std::string_view key, const core::TubesheetS
     TubeAddress address;
     std::string wrong;
     if (!drivers::read_address((*list)[i], address)) {
-      wrong = drivers::describe((*list)[i]) + ", expected [row, column]";
+      wrong = drivers::why_no_address((*list)[i]);
     } else {
       wrong = drivers::why_no_tube(sheet, address);
       wrong = wrong.empty() ? take(address) : wrong;
@@ -152,6 +153,25 @@ void read_sheet(TableReader& table, const core::TubesheetSettings& told, Scene& 
   read_displaced(table, told, scene);
 }
 
+void read_look(TableReader& table, core::rendering::SheetLook& look) {
+  read_numbers(table, kSheetLookKeys, look);
+  if (look.land_mm <= look.fillet_mm) {
+    return;
+  }
+  const auto text = [](double mm) {
+    std::string shortest = toml_number(mm);
+    return shortest.ends_with(".0") ? shortest.substr(0, shortest.size() - 2) : shortest;
+  };
+  // One of them may be the default: the mistake is told where the other stands.
+  if (table.has("land_mm")) {
+    table.complain("land_mm", text(look.land_mm) + ", expected at most the " +
+                                  text(look.fillet_mm) + " mm of fillet_mm");
+  } else {
+    table.complain("fillet_mm", text(look.fillet_mm) + ", expected at least the " +
+                                    text(look.land_mm) + " mm of land_mm");
+  }
+}
+
 }  // namespace
 
 void read_scene(drivers::SettingsDocument& document, const core::SessionSettings& told,
@@ -169,7 +189,7 @@ void read_scene(drivers::SettingsDocument& document, const core::SessionSettings
   drivers::read_table(document, "sheet", false,
                       [&](TableReader& table) { read_sheet(table, told.tubesheet, scene); });
   drivers::read_table(document, "look", false,
-                      [&](TableReader& table) { read_numbers(table, kSheetLookKeys, scene.look); });
+                      [&](TableReader& table) { read_look(table, scene.look); });
   drivers::read_table(document, "sensor", false, [&](TableReader& table) {
     read_numbers(table, kSensorLookKeys, scene.sensor);
   });

@@ -132,6 +132,14 @@ INSTANTIATE_TEST_SUITE_P(
               "expected a row from 0 to 120 and a column from 0 to 120"},
         Wrong{"rest_s = 1\nclaim_tube = [1]\n",
               "6: step[0].claim_tube: a list of 1, expected [row, column]"},
+        Wrong{"to = [40, 99999999999999]\n",
+              "5: step[0].to: the column 99999999999999, expected [row, column], each an integer "
+              "from -2147483648 to 2147483647"},
+        Wrong{"to = [\"a\", 60]\n",
+              "5: step[0].to: the row the text 'a', expected [row, column], each an integer from "
+              "-2147483648 to 2147483647"},
+        Wrong{"to_mm = [1549.4, 1270.0]\n[[step]]\nrest_s = 0.2\nclaim = true\n",
+              "8: step[1].claim: tube (50, 61) is listed as missing, expected a tube that stands"},
         Wrong{"rest_s = 1\nclaim = 1\n", "6: step[0].claim: 1, expected true or false"},
         Wrong{"tour = [[1, 2]]\n",
               "5: step[0].tour: not two addresses, expected [[row, column], [row, column]]"},
