@@ -1,6 +1,7 @@
 #include "board/bench/simulate_command.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "board/bench/progress_line.h"
 #include "board/bench/simulate/recording_files.h"
 #include "board/bench/simulate/scenario_file.h"
+#include "board/bench/simulate/settings_text.h"
 #include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
 #include "drivers/simulated/simulated_world.h"
@@ -46,6 +48,13 @@ std::string summary(const SimulateOptions& options, const ScenarioFile& file,
   return text + " s\n";
 }
 
+/// Says in the session file what the recording is of.
+std::string heading(const SimulateOptions& options, const ScenarioFile& file) {
+  const std::string from = std::filesystem::path(options.scenario).filename().string() + ", seed " +
+                           std::to_string(file.scenario.seed);
+  return (file.title.empty() ? "" : toml_comment(file.title)) + toml_comment(from) + "\n";
+}
+
 }  // namespace
 
 ExitStatus run_simulate(const SimulateOptions& options) {
@@ -70,7 +79,7 @@ ExitStatus run_simulate(const SimulateOptions& options) {
     return ExitStatus::kWrongInput;
   }
   RecordingFiles files;
-  if (!files.open(options.out, file->scenario)) {
+  if (!files.open(options.out, file->scenario, heading(options, *file))) {
     tell(files.message());
     return ExitStatus::kWrongInput;
   }

@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/replaced_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/csv_rows.h"
 #include "tests/system/program.h"
@@ -15,6 +17,7 @@
 namespace tubesight::tests {
 namespace {
 
+using support::replaced;
 using support::TemporaryFolder;
 
 const std::string kLibrary = std::string(TUBESIGHT_TEST_DATA_DIR) + "/scenarios/";
@@ -118,13 +121,52 @@ TEST(Simulate, GivesPicturesFromWhichPoseTellsTheTool) {
   EXPECT_NEAR(number(pose, "tool_gamma_deg"), 0.0, 0.03);
 }
 
+TEST(Simulate, ListsHiddenTubesAndVoidsOfEveryTenthFrameAndTheLast) {
+  const TemporaryFolder folder;
+  std::string text = replaced(small_scenario_text(), "rest_s = 0.1", "rest_s = 0.42");
+  // The frame at 0.4 s, the last, is lost: the one before it, at 0.3667 s, is number 11.
+  text += "[[fault]]\nkind = \"cut\"\nat_s = 0.4\n[sheet]\nvoids = [[41, 61]]\n";
+  folder.write("s.toml", text);
+
+  const ProgramRun run =
+      run_tubesight(folder, {"simulate", "s.toml", "--out", "r", "--window-only"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::vector<std::string> voids;
+  int hidden = 0;
+  for (const Row& row : read_rows(folder.read("r.centers.csv"))) {
+    hidden += row.at("occluded") == "1.00" ? 1 : 0;
+    if (row.at("state") == "void") {
+      EXPECT_EQ(row.at("row") + "," + row.at("col"), "41,61");
+      voids.push_back(row.at("frame") + "." + row.at("field"));
+    }
+  }
+  EXPECT_EQ(voids, (std::vector<std::string>{"0.0", "0.1", "10.0", "10.1", "11.0", "11.1"}));
+  EXPECT_GT(hidden, 0) << "the guidetube stands before some";
+}
+
+TEST(Simulate, SaysInTheSessionFileWhatTheRecordingIsOf) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", small_scenario_text() + "[scenario]\ntitle = \"A rest,\\nand black\"\n");
+  std::filesystem::create_directory(folder.path("to"));
+
+  const ProgramRun run = run_tubesight(
+      folder, {"simulate", folder.path("s.toml"), "--out", "to/r", "--seed", "7", "--window-only"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_TRUE(folder.read("to/r.session.toml")
+                  .starts_with("# A rest, and black\n# s.toml, seed 7\n\n[camera]\n"))
+      << folder.read("to/r.session.toml");
+}
+
 TEST(Simulate, TheSeedDecidesTheBytes) {
   const TemporaryFolder folder;
   folder.write("s.toml", small_scenario_text());
   const auto simulated = [&](const std::string& name, const std::string& seed) {
     EXPECT_EQ(run_tubesight(folder, {"simulate", "s.toml", "--out", name, "--seed", seed}).status,
               0);
-    return folder.read(name + ".y4m") + folder.read(name + ".session.toml");
+    const std::string session = folder.read(name + ".session.toml");
+    return folder.read(name + ".y4m") + session.substr(session.find("[camera]"));
   };
 
   const std::string first = simulated("a", "3");

@@ -15,7 +15,7 @@ using core::Unexpected;
 
 enum Text : std::uint8_t { kMeta, kEvents, kTruth, kCenters, kSession };
 
-/// Tube-ends are told of every tenth frame, as in the recordings.
+/// Tube-ends are told of every tenth frame and of the last, as in the recordings.
 constexpr std::int64_t kCentersEvery = 10;
 
 drivers::Y4mInterlacing interlacing_of(core::Scan scan) {
@@ -36,9 +36,11 @@ Result<void> RecordingFiles::checked(Result<void> result, const std::string& why
   return result;
 }
 
-Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenario& scenario) {
+Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenario& scenario,
+                                  const std::string& heading) {
   scenario_ = &scenario;
   frames_ = 0;
+  last_slot_ = -1;
   start_passed_ = scenario.told.start.tubes.empty();
   slots_.clear();
   const core::CameraSettings& camera = scenario.scene.camera;
@@ -54,7 +56,7 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
   const std::array<std::string, 5> beginnings = {
       std::string(kMetaHeader) + "\n", std::string(kEventsHeader) + "\n",
       std::string(kTruthHeader) + "\n", std::string(kTrueCentersHeader) + "\n",
-      session_text(scenario.told) +
+      heading + session_text(scenario.told) +
           (scenario.told.start.tubes.empty() ? "" : "\n" + start_text(scenario.told.start))};
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     const auto opened = texts_[i].open(name + kRecordingSuffixes[i + 1]);
@@ -67,6 +69,12 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
 
 Result<void> RecordingFiles::add(const drivers::SimulatedWorld& world,
                                  const drivers::SimulatedField& field) {
+  if (last_slot_ < 0) {
+    last_slot_ = world.slots() - 1;
+    while (last_slot_ > 0 && world.faults_at(last_slot_).lost) {
+      --last_slot_;
+    }
+  }
   slots_.push_back(field);
   const std::size_t fields_a_frame =
       scenario_->scene.camera.scan == core::Scan::kProgressive ? 1 : 2;
@@ -82,8 +90,10 @@ Result<void> RecordingFiles::write_frame(const drivers::SimulatedWorld& world) {
     slots_.clear();
     return {};
   }
+  const bool last = slots_.front().slot <= last_slot_ && last_slot_ <= slots_.back().slot;
+  const bool centers = frames_ % kCentersEvery == 0 || last;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
-    add_rows(world, slots_[i], static_cast<std::int32_t>(i));
+    add_rows(world, slots_[i], static_cast<std::int32_t>(i), centers);
   }
   slots_.clear();
   ++frames_;
@@ -98,7 +108,8 @@ Result<void> RecordingFiles::write_frame(const drivers::SimulatedWorld& world) {
 }
 
 void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
-                              const drivers::SimulatedField& field, std::int32_t index) {
+                              const drivers::SimulatedField& field, std::int32_t index,
+                              bool centers) {
   const FieldPlace place{frames_, index};
   const std::int64_t number = 2 * frames_ + index;
   append_meta_row(rows_[kMeta], number, field.field, field.lamp_permille);
@@ -112,7 +123,7 @@ void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
   const core::CameraSettings& camera = scenario_->scene.camera;
   append_truth_row(rows_[kTruth], place, field, camera,
                    scenario_->told.verification.aligned_within_mm);
-  if (frames_ % kCentersEvery == 0) {
+  if (centers) {
     list_tubes_in_view(world.truth(), scenario_->scene, field.truth, field.faults, in_view_);
     append_true_center_rows(rows_[kCenters], place, field, camera, in_view_);
   }

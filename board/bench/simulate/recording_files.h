@@ -26,8 +26,10 @@ inline constexpr std::array<const char*, 6> kRecordingSuffixes = {
 /// out.
 class RecordingFiles {
  public:
-  /// Begins the files of `name` (a path without suffix).
-  [[nodiscard]] core::Result<void> open(const std::string& name, const drivers::Scenario& scenario);
+  /// Begins the files of `name` (a path without suffix); `heading` are the first lines of the
+  /// session file: comments.
+  [[nodiscard]] core::Result<void> open(const std::string& name, const drivers::Scenario& scenario,
+                                        const std::string& heading);
 
   /// Appends the next slot of the world, delivered or lost, in order.
   [[nodiscard]] core::Result<void> add(const drivers::SimulatedWorld& world,
@@ -42,7 +44,7 @@ class RecordingFiles {
  private:
   [[nodiscard]] core::Result<void> write_frame(const drivers::SimulatedWorld& world);
   void add_rows(const drivers::SimulatedWorld& world, const drivers::SimulatedField& field,
-                std::int32_t index);
+                std::int32_t index, bool centers);
   [[nodiscard]] core::Result<void> checked(core::Result<void> result, const std::string& why);
 
   const drivers::Scenario* scenario_ = nullptr;
@@ -51,6 +53,7 @@ class RecordingFiles {
   std::array<std::string, 5> rows_;             ///< of the frame at hand
   std::vector<drivers::SimulatedField> slots_;  ///< of the frame at hand
   std::vector<TubeInView> in_view_;
+  std::int64_t last_slot_ = -1;  ///< that is delivered; below 0: not yet found
   std::int64_t frames_ = 0;
   bool start_passed_ = false;  ///< the start event of the settings, which the session file has
   std::string message_;

@@ -30,7 +30,7 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
     TubeAddress tube;
     const std::string wrong = drivers::read_address((*list)[i], tube)
                                   ? drivers::why_no_tube(sheet, tube)
-                                  : drivers::describe((*list)[i]) + ", expected [row, column]";
+                                  : drivers::why_no_address((*list)[i]);
     if (!wrong.empty()) {
       table.complain_entry("click_on", i, (*list)[i], wrong);
     }
@@ -63,7 +63,8 @@ std::string make_clicks(const ClickWish& wish, const drivers::Scenario& scenario
   for (const TubeAddress tube : wish.tubes) {
     const auto found = std::find_if(in_view.begin(), in_view.end(),
                                     [&](const TubeInView& each) { return each.address == tube; });
-    if (found == in_view.end() || found->image.rim_in_frame < 1.0) {
+    if (found == in_view.end() || found->image.rim_in_frame < 1.0 || found->image.occluded >= 1.0 ||
+        found->end.kind == core::rendering::TubeEndKind::kVoid) {
       return drivers::address_text(tube) +
              " is not in the picture then, expected tubes to click on that are";
     }

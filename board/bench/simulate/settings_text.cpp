@@ -73,6 +73,14 @@ std::string toml_text(std::string_view text) {
   return quoted + "\"";
 }
 
+std::string toml_comment(std::string_view text) {
+  std::string comment = "# ";
+  for (const char c : text) {
+    comment += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c;
+  }
+  return comment + "\n";
+}
+
 std::string toml_addresses(std::span<const core::TubeAddress> addresses) {
   std::string list;
   for (const core::TubeAddress address : addresses) {

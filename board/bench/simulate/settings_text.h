@@ -14,6 +14,8 @@ namespace tubesight::board {
 [[nodiscard]] std::string toml_numbers(std::span<const double> values);
 /// A text in quotation marks.
 [[nodiscard]] std::string toml_text(std::string_view text);
+/// A comment of one line, with its line feed.
+[[nodiscard]] std::string toml_comment(std::string_view text);
 /// `[[row, column], ...]`
 [[nodiscard]] std::string toml_addresses(std::span<const core::TubeAddress> addresses);
 

@@ -64,12 +64,11 @@ void list_tubes_in_view(const core::rendering::Truth& truth, const core::renderi
   for (std::int32_t row = first_row; row <= last_row; ++row) {
     for (std::int32_t column = first_column; column <= last_column; ++column) {
       const auto end = truth.tube_ends().at({row, column});
-      if (end.kind == TubeEndKind::kVoid ||
-          !near_picture(truth.image_of(field.T_sheet_tool, end.center_mm, faults.knock), camera)) {
+      if (!near_picture(truth.image_of(field.T_sheet_tool, end.center_mm, faults.knock), camera)) {
         continue;
       }
       const auto image = truth.tube_image(field.T_sheet_tool, {row, column}, faults.knock);
-      if (image && image->rim_in_frame > 0.0 && image->occluded < 1.0) {
+      if (image && image->rim_in_frame > 0.0) {
         tubes.push_back({{row, column}, end, *image});
       }
     }

@@ -10,15 +10,16 @@
 
 namespace tubesight::board {
 
-/// A tube-end that the picture shows, at least in part.
+/// A tube-end in the picture, or the place of one that is missing.
 struct TubeInView {
   core::TubeAddress address;
   core::rendering::TubeEnd end;
   core::rendering::TubeImage image;
 };
 
-/// Replaces `tubes` by the tube-ends, plugged ones too, of which a part of the rim is in the
-/// picture and in front of the guidetube; by growing address.
+/// Replaces `tubes` by the tube-ends of which a part of the rim is in the picture, by growing
+/// address: plugged ones too, those wholly behind the guidetube, and voids, as the recordings'
+/// `centers.csv` have them.
 void list_tubes_in_view(const core::rendering::Truth& truth, const core::rendering::Scene& scene,
                         const drivers::FieldTruth& field, const drivers::FieldFaults& faults,
                         std::vector<TubeInView>& tubes);
