@@ -174,12 +174,17 @@ TEST(FaultKnock, MovesThePictureWhileTheToolStays) {
   EXPECT_EQ(fields[5].pixels, sound()[5].pixels);
   EXPECT_NE(fields[6].pixels, sound()[6].pixels);
   EXPECT_EQ(fields[6].field.truth.axis.axis_mm, sound()[6].field.truth.axis.axis_mm);
-  // The sheet's normal as the camera sees it has turned by half a degree.
-  const auto before = sound()[6].field.truth.T_camera_sheet.rotation().col(0);
-  const auto after = fields[6].field.truth.T_camera_sheet.rotation().col(0);
-  const double turned_deg = std::acos(std::min(1.0, before.dot(after))) * 180.0 / 3.14159265358979;
-  EXPECT_GT(turned_deg, 0.2);
-  EXPECT_LT(turned_deg, 0.51);
+  // Turned by +0.5 degrees about the camera's y axis: what was at (x, y, z) is at (x cos + z sin,
+  // y, z cos - x sin), sin = 0.0087265, cos = 0.99996192.
+  const auto before = sound()[6].field.truth.T_camera_sheet;
+  const auto after = fields[6].field.truth.T_camera_sheet;
+  const Eigen::Vector3d tube(1524.0, 1016.0, 0.0);
+  const Eigen::Vector3d was = before * tube;
+  const Eigen::Vector3d is = after * tube;
+  EXPECT_NEAR(is.x(), 0.99996192 * was.x() + 0.0087265 * was.z(), 1e-4);
+  EXPECT_NEAR(is.y(), was.y(), 1e-9);
+  EXPECT_NEAR(is.z(), 0.99996192 * was.z() - 0.0087265 * was.x(), 1e-4);
+  EXPECT_GT(was.z(), 100.0) << "so that the test can fail";
 }
 
 TEST(FaultLampOut, LeavesAShareOfTheLight) {
