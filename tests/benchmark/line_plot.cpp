@@ -1,16 +1,20 @@
 #include "tests/benchmark/line_plot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/base/image_view.h"
+#include "core/overlay/font.h"
 #include "drivers/files/png_writer.h"
 
 namespace tubesight::benchmark {
 namespace {
 
 using core::overlay::Painter;
+using core::overlay::PixelBox;
 using core::overlay::PixelPoint;
 using core::overlay::Rgb;
 
@@ -20,6 +24,7 @@ constexpr std::int32_t kLeft = 64;
 constexpr std::int32_t kRight = 20;
 constexpr std::int32_t kTop = 34;
 constexpr std::int32_t kBottom = 46;
+constexpr std::int32_t kLegendLine_px = 14;
 constexpr Rgb kPaper{255, 255, 255};
 constexpr Rgb kInk{40, 40, 40};
 constexpr Rgb kGrid{222, 222, 222};
@@ -87,25 +92,83 @@ void draw_grid(Painter& painter, const Panel& panel, const Axes& axes) {
                kInk);
 }
 
+// Earlier series are wider than later ones, so that those that coincide can all be seen.
+void draw_series(Painter& painter, const Series& series, std::int32_t thickness_px,
+                 const Axes& axes) {
+  const std::int32_t reach = thickness_px / 2 + 1;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    const PixelPoint here = axes.at(series.points[i][0], series.points[i][1]);
+    painter.fill({here.u_px - reach, here.v_px - reach, here.u_px + reach, here.v_px + reach},
+                 series.colour);
+    if (!series.joined) {
+      painter.line(axes.at(series.points[i][0], 0.0), here, thickness_px, series.colour);
+    } else if (i > 0) {
+      painter.line(axes.at(series.points[i - 1][0], series.points[i - 1][1]), here, thickness_px,
+                   series.colour);
+    }
+  }
+}
+
+// How much of the curves runs through a box, in steps of a 64th of the way from point to point.
+std::int32_t curves_in(const PixelBox& box, const Panel& panel, const Axes& axes) {
+  constexpr int kSteps = 64;
+  std::int32_t inside = 0;
+  for (const Series& series : panel.series) {
+    for (std::size_t i = 0; i < series.points.size(); ++i) {
+      const auto& to = series.points[i];
+      const std::array<double, 2> foot{to[0], 0.0};
+      const auto& from = !series.joined ? foot : series.points[i > 0 ? i - 1 : 0];
+      for (int k = 0; k <= kSteps; ++k) {
+        const double share = static_cast<double>(k) / kSteps;
+        const PixelPoint at =
+            axes.at(from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]));
+        inside += at.u_px >= box.left && at.u_px <= box.right && at.v_px >= box.top &&
+                          at.v_px <= box.bottom
+                      ? 1
+                      : 0;
+      }
+    }
+  }
+  return inside;
+}
+
+// The names of the series, in the corner with the least of the curves.
+void draw_legend(Painter& painter, const Panel& panel, const Axes& axes) {
+  std::int32_t width = 0;
+  for (const Series& series : panel.series) {
+    width = std::max(width, core::overlay::text_width_px(series.name, 1));
+  }
+  const std::int32_t height = kLegendLine_px * static_cast<std::int32_t>(panel.series.size());
+  const std::int32_t left = axes.corner.u_px + kLeft + 12;
+  const std::int32_t right = axes.corner.u_px + kWidth - kRight - 12 - width;
+  const std::int32_t top = axes.corner.v_px + kTop + 4;
+  const std::int32_t bottom = axes.corner.v_px + kHeight - kBottom - 6 - height;
+  PixelPoint best{left, top};
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  for (const PixelPoint at : {PixelPoint{left, top}, PixelPoint{right, top},
+                              PixelPoint{left, bottom}, PixelPoint{right, bottom}}) {
+    const std::int32_t inside =
+        curves_in({at.u_px - 6, at.v_px - 6, at.u_px + width + 6, at.v_px + height}, panel, axes);
+    if (inside < least) {
+      least = inside;
+      best = at;
+    }
+  }
+  for (const Series& series : panel.series) {
+    painter.text(best, series.name, 1, series.colour);
+    best.v_px += kLegendLine_px;
+  }
+}
+
 void draw_panel(Painter& painter, const Panel& panel, PixelPoint corner) {
   const Axes axes = axes_of(panel, corner);
   draw_grid(painter, panel, axes);
-  std::int32_t line = 0;
+  auto thickness = 2 * static_cast<std::int32_t>(panel.series.size());
   for (const Series& series : panel.series) {
-    for (std::size_t i = 0; i < series.points.size(); ++i) {
-      const PixelPoint here = axes.at(series.points[i][0], series.points[i][1]);
-      painter.fill({here.u_px - 2, here.v_px - 2, here.u_px + 2, here.v_px + 2}, series.colour);
-      if (!series.joined) {
-        painter.line(axes.at(series.points[i][0], 0.0), here, 2, series.colour);
-      } else if (i > 0) {
-        painter.line(axes.at(series.points[i - 1][0], series.points[i - 1][1]), here, 2,
-                     series.colour);
-      }
-    }
-    painter.text({corner.u_px + kLeft + 12, corner.v_px + kTop + 4 + 14 * line}, series.name, 1,
-                 series.colour);
-    ++line;
+    draw_series(painter, series, thickness, axes);
+    thickness -= 2;
   }
+  draw_legend(painter, panel, axes);
 }
 
 }  // namespace
