@@ -30,6 +30,8 @@ constexpr NumberRange kPlace{-10000.0, 10000.0, " mm"};
 constexpr NumberRange kAngle{-360.0, 360.0, " degrees"};
 constexpr NumberRange kError_mm{-500.0, 500.0, " mm"};
 constexpr NumberRange kError_deg{-10.0, 10.0, " degrees"};
+constexpr NumberRange kMassError{-100.0, 100.0, " kg"};
+constexpr NumberRange kShareError{-1.0, 10.0, ""};  // -1: the true arm is stiff
 constexpr NumberRange kPeriod{0.0, 3600.0, " s"};
 constexpr drivers::WholeRange kSeed{0, std::numeric_limits<std::int32_t>::max()};
 constexpr std::array<std::string_view, 3> kErrors = {"none", "calibrated", "installed"};
@@ -118,6 +120,41 @@ void read_errors(TableReader& table, std::uint64_t scenario_seed, SimulatedRobot
   }
 }
 
+/// Errors of single parts, on top of those drawn; believed arm and links are read before.
+void read_single_errors(TableReader& table, SimulatedRobotSettings& robot) {
+  const auto joints = static_cast<std::size_t>(robot.believed.arm.joints());
+  core::kinematics::ArmErrors& errors = robot.errors;
+  std::array<double, 3> tool_mm{};
+  std::array<double, 3> tool_deg{};
+  std::vector<double> zeros_deg(joints);
+  std::vector<double> lengths_mm(joints);
+  double share = 0.0;
+  double mass_kg = 0.0;
+  table.optional_numbers("tool_error_mm", kError_mm, tool_mm);
+  table.optional_numbers("tool_error_deg", kError_deg, tool_deg);
+  table.optional_numbers("zero_error_deg", kError_deg, zeros_deg);
+  table.optional_numbers("length_error_mm", kError_mm, lengths_mm);
+  table.optional_number("flexibility_error", kShareError, share);
+  table.optional_number("tool_mass_error_kg", kMassError, mass_kg);
+  for (std::size_t i = 0; i < 3; ++i) {
+    errors.tool.position_mm[i] += tool_mm[i];
+    errors.tool.rotation_deg[i] += tool_deg[i];
+  }
+  for (std::size_t i = 0; i < joints; ++i) {
+    errors.links[i].offset_rad += radians(zeros_deg[i]);
+    errors.links[i].a_mm += lengths_mm[i];
+  }
+  const core::kinematics::Flexibility& believed = robot.believed.flexibility;
+  errors.flexibility.support_rad_per_nm += share * believed.support_rad_per_nm;
+  for (std::size_t i = 0; i < joints; ++i) {
+    errors.flexibility.joint_rad_per_nm[i] += share * believed.joint_rad_per_nm[i];
+    errors.flexibility.connection_rad_per_nm[i] += share * believed.connection_rad_per_nm[i];
+    errors.flexibility.link_bend_per_nm2[i] += share * believed.link_bend_per_nm2[i];
+    errors.flexibility.link_twist_per_nm2[i] += share * believed.link_twist_per_nm2[i];
+  }
+  errors.tool_mass_kg += mass_kg;
+}
+
 void read_robot_table(TableReader& table, std::uint64_t seed, SimulatedRobotSettings& robot) {
   std::array<double, 3> base_mm{};
   std::array<double, 3> base_deg{};
@@ -127,6 +164,7 @@ void read_robot_table(TableReader& table, std::uint64_t seed, SimulatedRobotSett
                                  Eigen::Vector3d(base_mm[0], base_mm[1], base_mm[2])};
   read_arm(table, robot);
   read_errors(table, seed, robot);
+  read_single_errors(table, robot);
   robot.claim_period_s = 0.0;
   table.optional_number("claim_period_s", kPeriod, robot.claim_period_s);
 }

@@ -1,5 +1,6 @@
 #include "board/bench/simulate/scenario_robot.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
 
@@ -115,6 +116,59 @@ TEST_F(ScenarioRobot, TakesAnArmOfItsOwn) {
   EXPECT_EQ(robot().believed.load.tool_mass_kg, 0.0) << "own links are stiff";
 }
 
+class ScenarioRobotErrors : public ScenarioRobot {
+ protected:
+  /// Where the tool truly is at the start, for a robot without other errors.
+  Eigen::Vector3d tip(const std::string& keys) {
+    EXPECT_TRUE(load("[robot]\nbase_mm = [700, 600, -1000]\nerrors = \"none\"\n" + keys));
+    const auto world = std::make_unique<drivers::SimulatedWorld>();
+    EXPECT_TRUE(world->configure(file_->scenario));
+    const auto field = std::make_unique<drivers::SimulatedField>();
+    EXPECT_TRUE(world->next(*field));
+    tool_ = field->truth.T_sheet_tool.rotation();
+    return field->truth.T_sheet_tool.translation_mm();
+  }
+
+  Eigen::Matrix3d tool_;
+};
+
+TEST_F(ScenarioRobotErrors, WithoutAnyTheToolIsWhereItIsBelieved) {
+  const Eigen::Vector3d off = tip("") - Eigen::Vector3d(1524.0, 1016.0, -40.0);
+  EXPECT_LT(off.norm(), 1e-3);
+}
+
+TEST_F(ScenarioRobotErrors, OfTheToolMoveAndTurnIt) {
+  const Eigen::Vector3d none = tip("");
+  const Eigen::Vector3d moved = tip("tool_error_mm = [2, 0, 0]\n") - none;
+  EXPECT_NEAR(std::hypot(moved.x(), moved.y()), 2.0, 0.01) << "square to the guidetube";
+
+  tip("tool_error_deg = [0, 1, 0]\n");
+  EXPECT_NEAR(tool_(2, 2), 0.99984770, 1e-6) << "cos 1 degree: it leans";
+}
+
+TEST_F(ScenarioRobotErrors, OfAJointsZeroTurnTheArmAboutIt) {
+  // Joint 1 is upright at (700, 600); the tip is 824 and 416 mm off it. 0.1 degrees are 0.00174533.
+  const Eigen::Vector3d off = tip("zero_error_deg = [0.1, 0, 0, 0, 0, 0]\n") - tip("");
+  EXPECT_NEAR(off.x(), -416.0 * 0.00174533, 0.01);
+  EXPECT_NEAR(off.y(), 824.0 * 0.00174533, 0.01);
+  EXPECT_NEAR(off.z(), 0.0, 0.01);
+}
+
+TEST_F(ScenarioRobotErrors, OfALinksLengthMoveTheTipAlongIt) {
+  const Eigen::Vector3d off = tip("length_error_mm = [0, 1.5, 0, 0, 0, 0]\n") - tip("");
+  EXPECT_NEAR(off.norm(), 1.5, 0.01);
+}
+
+TEST_F(ScenarioRobotErrors, OfWhatGivesWayLetItSink) {
+  // The arm sinks by 1.2 mm at 0.5 m and by 6.4 mm at 1.85 m (kinematics.md); here at 0.92 m.
+  const double none = tip("").z();
+  const double half_more = tip("flexibility_error = 0.5\n").z();
+  EXPECT_LT(half_more, none - 0.6);
+  EXPECT_GT(half_more, none - 3.2);
+  EXPECT_GT(tip("flexibility_error = -0.5\n").z(), none + 0.6);
+  EXPECT_LT(tip("tool_mass_error_kg = 4\n").z(), none - 0.1);
+}
+
 TEST_F(ScenarioRobot, SaysWhatIsWrongInOneLine) {
   const std::string base = "[robot]\nbase_mm = [700, 600, -1000]\n";
   EXPECT_EQ(complaint("[robot]\nerrors = \"none\"\n"),
@@ -122,6 +176,13 @@ TEST_F(ScenarioRobot, SaysWhatIsWrongInOneLine) {
   EXPECT_NE(complaint(base + "errors = \"some\"\n").find("s.toml:4: robot.errors"),
             std::string::npos);
   EXPECT_NE(complaint(base + "lenght = 3\n").find("robot.lenght"), std::string::npos);
+  EXPECT_EQ(complaint(base + "zero_error_deg = [1, 2]\n"),
+            "s.toml:4: robot.zero_error_deg: a list of 2, expected 6 times a number from -10 to 10 "
+            "degrees");
+  EXPECT_EQ(complaint(base + "flexibility_error = 20\n"),
+            "s.toml:4: robot.flexibility_error: 20, expected a number from -1 to 10");
+  EXPECT_EQ(complaint(base + "tool_error_mm = 3\n"),
+            "s.toml:4: robot.tool_error_mm: 3, expected 3 times a number from -500 to 500 mm");
   EXPECT_NE(complaint(base + "links = [[1, 2, 3]]\n").find("robot.links[0]"), std::string::npos);
   EXPECT_EQ(
       complaint("[robot]\nbase_mm = [-2000, 600, -1000]\n"),
