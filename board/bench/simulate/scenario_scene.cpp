@@ -205,6 +205,7 @@ void read_lamp(drivers::SettingsDocument& document, drivers::SimulatedLight& lig
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
     table.optional_whole("lamp_permille", {0, 1000}, light.lamp_permille);
     table.optional_number("pwm_hz", {0.0, 100000.0, " Hz"}, light.pwm_hz);
+    table.optional_number("lag_s", {0.0, 60.0, " s"}, light.lag_s);
     table.optional_number("ring", {0.0, 1.0, ""}, light.ring);
     read_numbers(table, kLampLookKeys, look);
   });

@@ -25,6 +25,17 @@ std::vector<std::uint8_t> bytes_of(const core::FieldView& view) {
 
 class World : public testing::Test {
  protected:
+  /// Mean grey level of the next field.
+  double mean_of_next() {
+    EXPECT_TRUE(world_->next(field_));
+    double sum = 0.0;
+    const auto bytes = bytes_of(field_.field.pixels);
+    for (const std::uint8_t grey : bytes) {
+      sum += grey;
+    }
+    return sum / static_cast<double>(bytes.size());
+  }
+
   std::unique_ptr<Scenario> scenario_ = small_scenario();
   std::unique_ptr<SimulatedWorld> world_ = std::make_unique<SimulatedWorld>();
   SimulatedField field_;
@@ -197,23 +208,34 @@ TEST_F(World, KeepsEventsThatFindNoRoomForTheNextField) {
 
 TEST_F(World, ADimmerSetsTheLightOfTheNextField) {
   ASSERT_TRUE(world_->configure(*scenario_));
-  const auto mean = [&] {
-    EXPECT_TRUE(world_->next(field_));
-    double sum = 0.0;
-    const auto bytes = bytes_of(field_.field.pixels);
-    for (const std::uint8_t grey : bytes) {
-      sum += grey;
-    }
-    return sum / static_cast<double>(bytes.size());
-  };
 
-  const double full = mean();
+  const double full = mean_of_next();
   world_->set_lamp_permille(300);
-  const double dim = mean();
+  const double dim = mean_of_next();
 
   EXPECT_EQ(field_.lamp_permille, 300);
   EXPECT_LT(dim, 0.6 * full);
   EXPECT_GT(dim, 0.1 * full);
+}
+
+TEST_F(World, ALaggingLampComesHalfWayInEachFieldWhereTheLagIsAField) {
+  scenario_->light.lag_s = 1.0 / 60.0;
+  scenario_->light.lamp_permille = 0;
+  scenario_->scene.sensor.blooming = 0.0;
+  scenario_->scene.lamp.strength = 0.5;  // far from saturation: grey levels go with the light
+  ASSERT_TRUE(world_->configure(*scenario_));
+
+  const double dark = mean_of_next();
+  world_->set_lamp_permille(800);
+  const double first = mean_of_next() - dark;
+  const double second = mean_of_next() - dark;
+  const double third = mean_of_next() - dark;
+
+  // 1/2, 3/4, 7/8 of the level.
+  EXPECT_EQ(field_.lamp_permille, 800) << "what is commanded";
+  EXPECT_GT(first, 5.0);
+  EXPECT_NEAR(second / first, 1.5, 0.05);
+  EXPECT_NEAR(third / first, 1.75, 0.05);
 }
 
 class Elsewhere final : public ToolMotion {

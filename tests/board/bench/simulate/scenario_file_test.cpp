@@ -105,11 +105,12 @@ TEST(ScenarioFile, WhatStandsUnlistedIsTrueAndNotTold) {
 }
 
 TEST(ScenarioFile, ReadsLooksAndLight) {
-  const ScenarioReading read(kRestPath +
-                             "[look]\nboron = 0.25\n[sensor]\nblur_px = 1.1\n"
-                             "[guidetube]\nradius_mm = 8\n"
-                             "[lamp]\nlamp_permille = 400\npwm_hz = 200\nring = 0.5\nbeam = 4\n"
-                             "[scenario]\nsheet_seed = 12\n");
+  const ScenarioReading read(
+      kRestPath +
+      "[look]\nboron = 0.25\n[sensor]\nblur_px = 1.1\n"
+      "[guidetube]\nradius_mm = 8\n"
+      "[lamp]\nlamp_permille = 400\npwm_hz = 200\nlag_s = 0.25\nring = 0.5\nbeam = 4\n"
+      "[scenario]\nsheet_seed = 12\n");
 
   ASSERT_TRUE(read.good) << read.told();
   const drivers::Scenario& scenario = read.scenario();
@@ -118,6 +119,7 @@ TEST(ScenarioFile, ReadsLooksAndLight) {
   EXPECT_EQ(scenario.scene.guidetube.radius_mm, 8.0);
   EXPECT_EQ(scenario.light.lamp_permille, 400);
   EXPECT_EQ(scenario.light.pwm_hz, 200.0);
+  EXPECT_EQ(scenario.light.lag_s, 0.25);
   EXPECT_EQ(scenario.light.ring, 0.5);
   EXPECT_EQ(scenario.scene.lamp.beam, 4.0);
   EXPECT_EQ(scenario.scene.seed, 12U);
