@@ -19,7 +19,7 @@ struct PoseError {
 struct LinkError {
   double a_mm = 0.0;        ///< length
   double d_mm = 0.0;        ///< offset
-  double twist_rad = 0.0;   ///<
+  double twist_rad = 0.0;   ///< between its two joint axes
   double offset_rad = 0.0;  ///< the joint's zero: true angle less reading
 };
 

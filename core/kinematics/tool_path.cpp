@@ -9,7 +9,7 @@
 namespace tubesight::core::kinematics {
 namespace {
 
-// The six numbers of a place in the order of Vibration: x, y, height, alpha, beta, gamma.
+// The six numbers of a place: x, y, height, alpha, beta, gamma.
 using Six = std::array<double, 6>;
 
 Six six_of(const ToolPlace& p) {
@@ -48,56 +48,6 @@ struct Swing {
   double rate2 = 0.0;
 };
 
-// 3 s² - 2 s³ of the time within a ramp; 1 beyond it.
-Swing swell(double time_s, double ramp_s) {
-  if (time_s >= ramp_s) {
-    return {1.0, 0.0, 0.0};
-  }
-  const double s = time_s / ramp_s;
-  return {s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / ramp_s,
-          (6.0 - 12.0 * s) / (ramp_s * ramp_s)};
-}
-
-Swing envelope(const Vibration& vibration, double time_s) {
-  const double since_s = time_s - vibration.from_s;
-  const double left_s = vibration.to_s - time_s;
-  if (!(since_s >= 0.0) || !(left_s > 0.0)) {
-    return {};
-  }
-  const double half_s = 0.5 * (vibration.to_s - vibration.from_s);
-  const double ramp_s = vibration.ramp_s < half_s ? vibration.ramp_s : half_s;
-  if (since_s < left_s) {
-    return swell(since_s, ramp_s);
-  }
-  const Swing mirrored = swell(left_s, ramp_s);
-  return {mirrored.value, -mirrored.rate, mirrored.rate2};
-}
-
-// sin(2 pi (turns)) and its derivatives; whole turns are taken off first, so that hours of a shake
-// keep their precision.
-Swing sine_of(double frequency_hz, double since_s, double phase_turns) {
-  const double turns = frequency_hz * since_s + phase_turns;
-  const double part = turns - std::floor(turns);
-  const double omega = 2.0 * kPi * frequency_hz;
-  const auto [s, c] = sine_cosine(2.0 * kPi * part);
-  return {s, omega * c, -omega * omega * s};
-}
-
-void shake(const Vibration& vibration, double time_s, std::array<Swing, 6>& six) {
-  const Swing e = envelope(vibration, time_s);
-  if (e.value == 0.0 && e.rate == 0.0 && e.rate2 == 0.0) {
-    return;
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double amplitude = i < 3 ? vibration.amplitude_mm[i] : vibration.amplitude_deg[i - 3];
-    const Swing s =
-        sine_of(vibration.frequency_hz, time_s - vibration.from_s, vibration.phase_turns[i]);
-    six[i].value += amplitude * e.value * s.value;
-    six[i].rate += amplitude * (e.rate * s.value + e.value * s.rate);
-    six[i].rate2 += amplitude * (e.rate2 * s.value + 2.0 * e.rate * s.rate + e.value * s.rate2);
-  }
-}
-
 }  // namespace
 
 Transform<frames::Sheet, frames::Tool> transform_of(const ToolPlace& place) {
@@ -134,7 +84,6 @@ Result<void> ToolPath::begin(const ToolPlace& start) {
     return Unexpected(Error::kInvalidArgument);
   }
   segments_.clear();
-  vibrations_.clear();
   start_ = start;
   end_ = start;
   duration_s_ = 0.0;
@@ -173,20 +122,6 @@ Result<void> ToolPath::add(const PathSegment& segment) {
   return {};
 }
 
-Result<void> ToolPath::add_vibration(const Vibration& vibration) {
-  bool good = std::isfinite(vibration.from_s) && std::isfinite(vibration.to_s) &&
-              vibration.to_s > vibration.from_s && vibration.ramp_s >= 0.0 &&
-              vibration.frequency_hz >= 0.0 && vibration.frequency_hz <= 1e5;
-  for (std::size_t i = 0; i < 6; ++i) {
-    good = good && std::isfinite(vibration.phase_turns[i]) &&
-           std::isfinite(i < 3 ? vibration.amplitude_mm[i] : vibration.amplitude_deg[i - 3]);
-  }
-  if (!good) {
-    return Unexpected(Error::kInvalidArgument);
-  }
-  return vibrations_.try_push_back(vibration) ? Result<void>() : Unexpected(Error::kBufferTooSmall);
-}
-
 // The last segment that has begun; by halving, as paths of hours have a thousand.
 std::int32_t ToolPath::segment_at(double time_s) const {
   if (!(time_s >= 0.0) || segments_.empty()) {
@@ -222,9 +157,6 @@ ToolState ToolPath::state_at(double time_s) const {
   for (std::size_t i = 0; i < 6; ++i) {
     const double slope = length > 0.0 ? (to[i] - from[i]) / length : 0.0;
     six[i] = {from[i] + slope * along.distance, slope * along.speed, slope * along.acceleration};
-  }
-  for (const Vibration& vibration : vibrations_) {
-    shake(vibration, time_s, six);
   }
   Six values{};
   for (std::size_t i = 0; i < 6; ++i) {

@@ -14,7 +14,7 @@ namespace tubesight::core::kinematics {
 /// Where the tool stands, in the words of a path: the six numbers of T_sheet_tool.
 struct ToolPlace {
   double x_mm = 0.0;       ///< tip in the sheet frame
-  double y_mm = 0.0;       ///<
+  double y_mm = 0.0;       ///< tip in the sheet frame
   double height_mm = 0.0;  ///< tip below the plane of the tube-ends: the sheet's z is -height_mm
   double alpha_deg = 0.0;  ///< heading; R = Rz(alpha) Ry(beta) Rx(gamma) [Fallon eq. 4.1]
   double beta_deg = 0.0;   ///< lean
@@ -53,24 +53,10 @@ struct PathSegment {
 /// Where a segment ends that begins at `from`.
 [[nodiscard]] ToolPlace end_of(const PathSegment& segment, const ToolPlace& from);
 
-/// A shake of the tool on top of the path: each coordinate swings as a sine.
-///
-/// It swells from nothing and dies down within `ramp_s` at both ends (by a smooth cubic), so that
-/// place and speed never jump.
-struct Vibration {
-  double from_s = 0.0;
-  double to_s = 0.0;     ///< after from_s; 1e9 for a shake that lasts
-  double ramp_s = 0.05;  ///< 0 or more; cut to half of the burst
-  double frequency_hz = 0.0;
-  std::array<double, 3> amplitude_mm{};   ///< x, y, height
-  std::array<double, 3> amplitude_deg{};  ///< alpha, beta, gamma
-  std::array<double, 6> phase_turns{};    ///< of each, as a share of the swing's period
-};
-
 /// Where the tool is at an instant and how it moves.
 struct ToolState {
   Transform<frames::Sheet, frames::Tool> T_sheet_tool;
-  ToolPlace place{};                           ///< the same in numbers, vibration included
+  ToolPlace place{};                           ///< the same in numbers
   std::array<double, 3> velocity_mm_s{};       ///< of the tip, sheet frame
   std::array<double, 3> acceleration_mm_s2{};  ///< of the tip, sheet frame
   double speed_mm_s = 0.0;                     ///< magnitude of velocity_mm_s
@@ -79,10 +65,9 @@ struct ToolState {
 
 /// Segments of one path: 250 tubes visited with move, rest, docking, rest and undocking are 1,250.
 inline constexpr std::int32_t kMaxPathSegments = 4096;
-/// Shakes of one path.
-inline constexpr std::int32_t kMaxVibrations = 64;
 
-/// A tool path: segments one after the other, and vibration on top.
+/// A tool path: segments one after the other. What shakes the tool besides is a fault of the
+/// simulated world (drivers/simulated).
 ///
 /// A pure function of time: state_at() may be asked for any instant in any order, by several
 /// threads. Only + - x /, square roots and our own sine: the same bits on every machine. Some
@@ -98,20 +83,17 @@ class ToolPath {
   /// limit is not above 0 or a number is not finite.
   [[nodiscard]] Result<void> add(const PathSegment& segment);
 
-  /// Puts a shake on top. Errors: kBufferTooSmall, kInvalidArgument as add().
-  [[nodiscard]] Result<void> add_vibration(const Vibration& vibration);
-
   [[nodiscard]] std::int32_t size() const { return segments_.size(); }
   [[nodiscard]] double duration_s() const { return duration_s_; }
   /// Start of a segment, 0..size()-1.
   [[nodiscard]] double start_s(std::int32_t segment) const { return segments_[segment].start_s; }
 
   [[nodiscard]] const ToolPlace& start() const { return start_; }
-  /// Where the path ends, without vibration.
+  /// Where the path ends.
   [[nodiscard]] const ToolPlace& end() const { return end_; }
 
-  /// Where the tool is. At the start before time 0, at the end after duration_s(), shaken there
-  /// too. At the instant between two segments, the later one.
+  /// Where the tool is. At the start before time 0, at the end after duration_s(). At the
+  /// instant between two segments, the later one.
   [[nodiscard]] ToolState state_at(double time_s) const;
 
  private:
@@ -129,7 +111,6 @@ class ToolPath {
   ToolPlace end_{};
   double duration_s_ = 0.0;
   StaticVector<Segment, kMaxPathSegments> segments_;
-  StaticVector<Vibration, kMaxVibrations> vibrations_;
 };
 
 }  // namespace tubesight::core::kinematics

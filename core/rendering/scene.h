@@ -80,10 +80,10 @@ struct SensorLook {
 
 /// The guidetube, seen from outside: from its tip down along the tool's -z.
 struct GuidetubeLook {
-  double radius_mm = 9.1;   ///< 0: none
-  double length_mm = 33.0;  ///< visible length below the tip
-  double reflectance = 0.3;
-  double shadow = 1.0;  ///< 0: throws none (camera's LEDs)
+  double radius_mm = 9.1;    ///< 0: none
+  double length_mm = 33.0;   ///< visible length below the tip
+  double reflectance = 0.3;  ///< of its side, diffuse, 0..1
+  double shadow = 1.0;       ///< depth of its shadow from each lamp, 0 (none) to 1
 };
 
 /// Plugs and displaced tube-ends in one scene; the settings' lists hold up to kMaxListedTubes.

@@ -44,14 +44,14 @@ inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
 /// their first field. Vibration and lamp-drift need a length.
 struct Fault {
   FaultKind kind = FaultKind::kDropped;
-  double at_s = 0.0;
-  double for_s = 0.0;
+  double at_s = 0.0;                  ///< when it begins, from the recording's start
+  double for_s = 0.0;                 ///< how long it lasts, 0 or more
   double share = 0.5;                 ///< torn: of the lines that are new, 0..1; emi: of lines hit;
                                       ///< salt-pepper: of pixels
   double level = 0.0;                 ///< lamp-out, lamp-drift: share of full light, 0..1;
                                       ///< black: grey value
   double amplitude = 0.0;             ///< emi: grey levels
-  double angle_deg = 0.0;             ///< knock: by how much
+  double angle_deg = 0.0;             ///< knock: by how much, right-handed
   std::array<double, 3> axis{};       ///< knock: about which axis of the camera frame, any length
   std::uint16_t lamps = 0;            ///< lamps-dead: bit n is lamp n
   std::array<double, 3> shake_mm{};   ///< vibration: amplitude in the tool frame

@@ -141,7 +141,8 @@ def main():
     if options.drawing:
         instructions = count_drawing(options.program.resolve())
         print(f"drawing: {instructions:.0f} instructions a field, at most {MOST_PER_DRAWN_FIELD}")
-        print(*broken_drawing(instructions), sep="\n", end="")
+        for line in broken_drawing(instructions):
+            print(line)
         return 1 if options.check and broken_drawing(instructions) else 0
     print(f"{'recording':16} {'window':12} {'tube-ends a field':>18} {'instructions a field':>21} "
           f"{'a tube-end':>11}")

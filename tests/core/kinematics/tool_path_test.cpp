@@ -136,49 +136,6 @@ TEST_F(ToolPathTest, JumpsInNoTime) {
   EXPECT_EQ(path_->state_at(1.0).speed_mm_s, 0.0);
 }
 
-TEST_F(ToolPathTest, VibratesWithTheAmplitudeAndFrequencyAsked) {
-  begin({100.0, 0.0, 40.0, 0.0, 0.0, 0.0});
-  Vibration vibration;
-  vibration.from_s = 1.0;
-  vibration.to_s = 3.0;
-  vibration.ramp_s = 0.5;
-  vibration.frequency_hz = 5.0;
-  vibration.amplitude_mm = {0.2, 0.0, 0.1};
-  vibration.amplitude_deg = {0.0, 0.05, 0.0};
-  vibration.phase_turns = {0.0, 0.0, 0.25, 0.0, 0.0, 0.0};
-  ASSERT_TRUE(path_->add_vibration(vibration));
-
-  EXPECT_EQ(path_->state_at(0.999).place.x_mm, 100.0) << "before the burst";
-  EXPECT_EQ(path_->state_at(3.001).place.x_mm, 100.0) << "after the burst";
-  // Whole periods after the start x swings through its middle at 2 pi 5 0.2 mm/s, height is at its
-  // largest; a quarter of a period (0.05 s) later the other way round.
-  const ToolState middle = path_->state_at(2.0);
-  EXPECT_NEAR(middle.place.x_mm, 100.0, 1e-12);
-  EXPECT_NEAR(middle.velocity_mm_s[0], 6.283185307179586, 1e-9);
-  EXPECT_NEAR(middle.place.height_mm, 40.1, 1e-12);
-  const ToolState peak = path_->state_at(2.05);
-  EXPECT_NEAR(peak.place.x_mm, 100.2, 1e-12);
-  EXPECT_NEAR(peak.place.beta_deg, 0.05, 1e-12);
-  EXPECT_NEAR(peak.acceleration_mm_s2[0], -197.392088021787, 1e-8) << "(2 pi 5)² 0.2";
-  // Half way up the ramp, s = 0.5: half of the swing. 1.25 s is 1.25 periods after the start.
-  EXPECT_NEAR(path_->state_at(1.25).place.x_mm, 100.1, 1e-12);
-  // Half way down, 9 periods less 1.25.
-  EXPECT_NEAR(path_->state_at(2.75).place.x_mm, 100.0 - 0.1, 1e-12);
-}
-
-TEST_F(ToolPathTest, AShakeThatLastsKeepsItsPhaseForHours) {
-  begin({});
-  Vibration vibration;
-  vibration.to_s = 1e9;
-  vibration.frequency_hz = 12.5;
-  vibration.amplitude_mm = {1.0, 0.0, 0.0};
-  ASSERT_TRUE(path_->add_vibration(vibration));
-
-  // Six hours are 270,000 periods; 0.02 s are a quarter of one.
-  EXPECT_NEAR(path_->state_at(21600.0).place.x_mm, 0.0, 1e-9);
-  EXPECT_NEAR(path_->state_at(21600.02).place.x_mm, 1.0, 1e-9);
-}
-
 TEST_F(ToolPathTest, SpeedAndAccelerationAreTheRatesOfPlace) {
   begin({0.0, 0.0, 60.0, 0.0, 0.0, 0.0});
   add(move(80.0, -30.0, {200.0, 1500.0, 2e4}, SpeedShape::kSCurve));
@@ -186,14 +143,6 @@ TEST_F(ToolPathTest, SpeedAndAccelerationAreTheRatesOfPlace) {
   height.shape = SpeedShape::kSCurve;
   height.height_mm = 10.0;
   add(height);
-  Vibration vibration;
-  vibration.from_s = 0.1;
-  vibration.to_s = 1.3;
-  vibration.ramp_s = 0.3;
-  vibration.frequency_hz = 9.0;
-  vibration.amplitude_mm = {0.3, 0.2, 0.1};
-  vibration.phase_turns = {0.1, 0.6, 0.3, 0.0, 0.0, 0.0};
-  ASSERT_TRUE(path_->add_vibration(vibration));
 
   constexpr double kStep_s = 1e-5;
   for (double time_s = 0.00333; time_s < path_->duration_s(); time_s += 0.01) {
@@ -245,14 +194,6 @@ TEST_F(ToolPathTest, RefusesWhatIsNoPath) {
   EXPECT_TRUE(refused(move(nan, 0.0, {})));
   EXPECT_TRUE(refused(move(1.0, 0.0, {0.0, 1.0, 1.0})));
   EXPECT_FALSE(path_->begin({nan, 0.0, 0.0, 0.0, 0.0, 0.0}));
-  Vibration backwards;
-  backwards.from_s = 2.0;
-  backwards.to_s = 1.0;
-  EXPECT_FALSE(path_->add_vibration(backwards));
-  Vibration endless;
-  endless.to_s = 1.0;
-  endless.amplitude_mm[1] = nan;
-  EXPECT_FALSE(path_->add_vibration(endless));
 }
 
 }  // namespace
