@@ -1,6 +1,6 @@
 #include "board/bench/still_reader.h"
 
-#include <charconv>
+#include "drivers/files/csv_reader.h"
 
 namespace tubesight::board {
 namespace {
@@ -9,9 +9,7 @@ namespace {
 constexpr std::int64_t kLastFrame = 99'999;
 
 bool parse_frame(std::string_view text, std::int64_t& frame) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frame);
-  return error == std::errc() && end == text.data() + text.size() && frame >= 0 &&
-         frame <= kLastFrame;
+  return drivers::parse_whole(text, frame) && frame >= 0 && frame <= kLastFrame;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "drivers/files/decimal.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "core/base/assert.h"
@@ -59,6 +60,19 @@ void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denom
 }
 
 void append_whole(std::string& out, std::int64_t value) { append_decimal(out, value, 1, 0); }
+
+std::string number_text(double value) {
+  // Beyond these a plain decimal would be a row of zeros.
+  constexpr double kSmallest = 1e-6;
+  constexpr double kLargest = 1e9;
+  const double magnitude = std::abs(value);
+  const bool plain = value == 0.0 || (magnitude >= kSmallest && magnitude < kLargest);
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, value,
+                                 plain ? std::chars_format::fixed : std::chars_format::general)
+                       .ptr;
+  return {text, end};
+}
 
 bool parse_decimal(std::string_view text, std::int32_t digits, std::int64_t& value) {
   TUBESIGHT_ASSERT(digits >= 0 && digits <= 9);

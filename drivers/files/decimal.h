@@ -16,6 +16,10 @@ void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denom
 /// Appends a whole number.
 void append_whole(std::string& out, std::int64_t value);
 
+/// The shortest decimal that reads back as the same number; with an exponent below 10^-6 and from
+/// 10^9 on, where a plain one would be a row of zeros.
+[[nodiscard]] std::string number_text(double value);
+
 /// Reads a decimal number ("-12", "3.5", ".5") as a multiple of 10^-digits, exactly.
 ///
 /// False, and `value` as it was, when the text is anything else (spaces and exponents too), has

@@ -6,24 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/files/decimal.h"
+
 namespace tubesight::drivers {
 namespace {
 
 using core::TubeAddress;
 using Vector = std::array<double, 2>;
-
-std::string number_text(double value) {
-  // Beyond these a plain decimal would be a row of zeros.
-  constexpr double kSmallest = 1e-6;
-  constexpr double kLargest = 1e9;
-  const double magnitude = std::abs(value);
-  const bool plain = value == 0.0 || (magnitude >= kSmallest && magnitude < kLargest);
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value,
-                                 plain ? std::chars_format::fixed : std::chars_format::general)
-                       .ptr;
-  return {text, end};
-}
 
 /// For numbers that were calculated: four significant digits.
 std::string rounded_text(double value) {

@@ -1,29 +1,15 @@
 #include "drivers/settings/table_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "drivers/files/csv_reader.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::drivers {
 namespace {
-
-/// The shortest decimal that reads back as the same number.
-std::string number_text(double value) {
-  // Beyond these a plain decimal would be a row of zeros.
-  constexpr double kSmallest = 1e-6;
-  constexpr double kLargest = 1e9;
-  const double magnitude = std::abs(value);
-  const bool plain = value == 0.0 || (magnitude >= kSmallest && magnitude < kLargest);
-  char text[40];
-  const auto end = std::to_chars(text, text + sizeof text, value,
-                                 plain ? std::chars_format::fixed : std::chars_format::general)
-                       .ptr;
-  return {text, end};
-}
 
 constexpr WholeRange kAnyWhole{std::numeric_limits<std::int32_t>::min(),
                                std::numeric_limits<std::int32_t>::max()};

@@ -219,6 +219,14 @@ FieldFaults SimulatedWorld::faults_at(std::int64_t slot) const {
   return faults_of(scenario_->faults, slot_at(slot));
 }
 
+std::int64_t SimulatedWorld::last_delivered() const {
+  std::int64_t slot = slots_ - 1;
+  while (slot >= 0 && faults_at(slot).lost) {
+    --slot;
+  }
+  return slot;
+}
+
 bool SimulatedWorld::hits(const Fault& fault) const {
   // The first field or frame from its beginning on has it, or none: found from a little before.
   constexpr std::int64_t kBefore = 3;

@@ -84,6 +84,9 @@ class SimulatedWorld {
   /// What the faults do to a slot.
   [[nodiscard]] FieldFaults faults_at(std::int64_t slot) const;
 
+  /// The last slot that faults don't lose; -1 when they lose all.
+  [[nodiscard]] std::int64_t last_delivered() const;
+
   /// Whether a fault, of the scenario or not, has a slot of the recording to act on.
   [[nodiscard]] bool hits(const Fault& fault) const;
 

@@ -9,8 +9,10 @@ using core::TubeAddress;
 constexpr double kGateSlack_mm = 0.3;
 constexpr double kHalfPitchSlack_mm = 1.5;
 
-constexpr TubeAddress sum(TubeAddress a, TubeAddress b) {
-  return {a.row + b.row, a.column + b.column};
+// Off by just the steps that nothing showed: no box can know better.
+constexpr bool explained_by_slip(TubeAddress told, const FieldTruth& truth) {
+  const TubeAddress slipped{told.row + truth.slip.row, told.column + truth.slip.column};
+  return truth.slip != TubeAddress{} && slipped == truth.nearest;
 }
 
 }  // namespace
@@ -46,9 +48,7 @@ void MoveJudge::take(const FieldTruth& truth, const core::Sighting& sighting) {
       truth.present && truth.offset_mm < limits_.shortest_step_mm / 2.0 - kHalfPitchSlack_mm;
   if (clear && sighting.tool_known) {
     ++counts_[Count::kNamed];
-    const bool slipped = truth.slip != TubeAddress{};
-    if (sighting.tool != truth.nearest &&
-        !(slipped && sum(sighting.tool, truth.slip) == truth.nearest)) {
+    if (sighting.tool != truth.nearest && !explained_by_slip(sighting.tool, truth)) {
       ++counts_[Count::kWrongNearest];
     }
   }
@@ -69,8 +69,7 @@ void MoveJudge::judge_vouched(const FieldTruth& truth, const core::Sighting& sig
     counts_[Count::kFalseAligned] += truth.offset_mm > limits_.gate_mm + kGateSlack_mm ? 1 : 0;
     return;
   }
-  const bool slipped = truth.slip != TubeAddress{};
-  if (slipped && sum(sighting.tool, truth.slip) == truth.nearest) {
+  if (explained_by_slip(sighting.tool, truth)) {
     ++counts_[Count::kUndetectable];
     return;
   }

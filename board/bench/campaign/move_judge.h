@@ -13,8 +13,7 @@ struct FieldTruth {
   core::TubeAddress nearest{};  ///< tube of the lattice nearest to the guidetube's axis
   bool present = true;          ///< a tube stands there, open or plugged
   double offset_mm = 0.0;       ///< its distance from the axis
-  /// Lattice steps by which the sheet was silently moved since the start: a box that cannot have
-  /// noticed names the true tube less these.
+  /// drivers::FieldTruth::slip: a box that cannot have noticed names the true tube less these.
   core::TubeAddress slip{};
 };
 

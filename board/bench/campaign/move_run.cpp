@@ -19,7 +19,7 @@ FieldTruth truth_of(const SimulatedField& field) {
   truth.nearest = nearest.address;
   truth.present = field.truth.axis_known && nearest.kind != TubeEndKind::kVoid;
   truth.offset_mm = nearest.offset_mm;
-  truth.slip = {field.faults.jump[0], field.faults.jump[1]};
+  truth.slip = {field.truth.slip[0], field.truth.slip[1]};
   return truth;
 }
 

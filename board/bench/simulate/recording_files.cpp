@@ -40,7 +40,7 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
                                   const std::string& heading) {
   scenario_ = &scenario;
   frames_ = 0;
-  last_slot_ = -1;
+  last_slot_.reset();
   start_passed_ = scenario.told.start.tubes.empty();
   slots_.clear();
   const core::CameraSettings& camera = scenario.scene.camera;
@@ -69,11 +69,8 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
 
 Result<void> RecordingFiles::add(const drivers::SimulatedWorld& world,
                                  const drivers::SimulatedField& field) {
-  if (last_slot_ < 0) {
-    last_slot_ = world.slots() - 1;
-    while (last_slot_ > 0 && world.faults_at(last_slot_).lost) {
-      --last_slot_;
-    }
+  if (!last_slot_) {
+    last_slot_ = world.last_delivered();
   }
   slots_.push_back(field);
   const std::size_t fields_a_frame =

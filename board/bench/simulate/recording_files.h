@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,7 @@ class RecordingFiles {
   std::array<std::string, 5> rows_;             ///< of the frame at hand
   std::vector<drivers::SimulatedField> slots_;  ///< of the frame at hand
   std::vector<TubeInView> in_view_;
-  std::int64_t last_slot_ = -1;  ///< that is delivered; below 0: not yet found
+  std::optional<std::int64_t> last_slot_;  ///< that is delivered; found with the first slot
   std::int64_t frames_ = 0;
   bool start_passed_ = false;  ///< the start event of the settings, which the session file has
   std::string message_;

@@ -131,11 +131,8 @@ void check_events(const Scenario& scenario, const SimulatedWorld& world,
                   std::span<const EventPlace> places, drivers::SettingsProblems& problems) {
   // As the world: times that should be equal differ in their last bits.
   constexpr double kNothing_s = 1e-9;
-  std::int64_t slot = world.slots() - 1;
-  const double end_s = seconds(world.slot_time(slot)) + kNothing_s;
-  while (slot >= 0 && world.faults_at(slot).lost) {
-    --slot;
-  }
+  const double end_s = seconds(world.slot_time(world.slots() - 1)) + kNothing_s;
+  const std::int64_t slot = world.last_delivered();
   const double last_s = slot >= 0 ? seconds(world.slot_time(slot)) + kNothing_s : -1.0;
   const bool cut = world.path().duration_s() > seconds(world.slot_time(world.slots()));
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {

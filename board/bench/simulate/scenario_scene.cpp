@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "board/bench/simulate/scenario_keys.h"
-#include "board/bench/simulate/settings_text.h"
+#include "drivers/files/decimal.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/table_reader.h"
@@ -158,17 +158,13 @@ void read_look(TableReader& table, core::rendering::SheetLook& look) {
   if (look.land_mm <= look.fillet_mm) {
     return;
   }
-  const auto text = [](double mm) {
-    std::string shortest = toml_number(mm);
-    return shortest.ends_with(".0") ? shortest.substr(0, shortest.size() - 2) : shortest;
-  };
   // One of them may be the default: the mistake is told where the other stands.
   if (table.has("land_mm")) {
-    table.complain("land_mm", text(look.land_mm) + ", expected at most the " +
-                                  text(look.fillet_mm) + " mm of fillet_mm");
+    table.complain("land_mm", drivers::number_text(look.land_mm) + ", expected at most the " +
+                                  drivers::number_text(look.fillet_mm) + " mm of fillet_mm");
   } else {
-    table.complain("fillet_mm", text(look.fillet_mm) + ", expected at least the " +
-                                    text(look.land_mm) + " mm of land_mm");
+    table.complain("fillet_mm", drivers::number_text(look.fillet_mm) + ", expected at least the " +
+                                    drivers::number_text(look.land_mm) + " mm of land_mm");
   }
 }
 
