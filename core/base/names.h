@@ -29,4 +29,14 @@ namespace tubesight::core {
   return "";
 }
 
+/// The word of a liveness in files: `unknown`, `proved`, `failed`.
+[[nodiscard]] constexpr std::string_view name_of(Liveness liveness) {
+  switch (liveness) {
+    case Liveness::kUnknown: return "unknown";
+    case Liveness::kProved: return "proved";
+    case Liveness::kFailed: return "failed";
+  }
+  return "";
+}
+
 }  // namespace tubesight::core

@@ -43,6 +43,7 @@ struct Words {
       return {"time", "the time of a field is not after that of the field before", "time ran back"};
     case Reason::kArithmetic:
       return {"arithmetic", "a number left the range of the arithmetic", "out of range"};
+    case Reason::kNoField: return {"no-field", "no field came in time", "no field came"};
   }
   return {};
 }
