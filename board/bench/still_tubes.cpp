@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "board/bench/frame_gaps.h"
-#include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "drivers/replay/companion.h"
 #include "drivers/settings/session_checks.h"
 

@@ -21,7 +21,6 @@ namespace {
 using core::TrackState;
 
 constexpr double kQ16 = 65536.0;
-constexpr std::int32_t kFullLamp_permille = 1000;
 
 TrackedFrame failed(ExitStatus status, std::string message) {
   TrackedFrame frame;
@@ -86,7 +85,6 @@ struct TrackedStart::Run {
       return true;  // before the clicks: nothing is known there
     }
     input.field = lease->field();
-    input.lamp_permille = grabber.lamp_permille().value_or(kFullLamp_permille);
     feed.take_before(number, events, input.events);
     const TrackState before = output.sighting.state;
     session.step(input, output);
