@@ -35,6 +35,7 @@ core::Result<void> PoseService::configure(const core::SessionSettings& settings)
 void PoseService::take(const core::Field& field, std::int64_t number,
                        const core::PoseOrder& order) {
   core::pose::PoseRequestJob& job = parts_->job;
+  computed_.reset();
   if (order.wanted) {
     job.begin(order);
     ordered_at_ = number;
@@ -47,15 +48,12 @@ void PoseService::take(const core::Field& field, std::int64_t number,
   event.kind = core::EventKind::kPoseResult;
   event.pose = job.compute();
   result_ = event;
-  const bool known = event.pose.reason == core::PoseReason::kNone;
-  PoseRow row;
-  row.image = recording_ + ":" + std::to_string(ordered_at_);
-  if (known) {
-    row.estimate = &job.outcome().pose.estimate;
-    row.covariance = row.estimate->covariance;
-    row.has_tube = parts_->map.state(row.estimate->nearest) != core::TubeState::kAbsent;
+  computed_ = Computed{ordered_at_, nullptr, false};
+  if (event.pose.reason == core::PoseReason::kNone) {
+    computed_->estimate = &job.outcome().pose.estimate;
+    computed_->has_tube =
+        parts_->map.state(computed_->estimate->nearest) != core::TubeState::kAbsent;
   }
-  append_pose_row(rows_, row);
 }
 
 std::int64_t PoseService::unanswered() const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "board/bench/overlay_composer.h"
+#include "board/bench/pose_rows.h"
 #include "core/base/instantiate.h"
 #include "core/session/session.h"
 
@@ -60,6 +61,7 @@ class ReplayJob {
     session_.step(input_, output_);
     if (!in_.events.has_pose_results()) {
       out_.poses.take(field, number, output_.order);
+      write_down_pose();
     }
     out_.statistics.add(input_.events, output_);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
@@ -86,6 +88,22 @@ class ReplayJob {
         static_cast<void>(input_.events.try_push_back(*result));
       }
     }
+  }
+
+  /// The first cell is the recording and the number of the field that the request came before.
+  void write_down_pose() {
+    const auto& computed = out_.poses.computed();
+    if (!computed) {
+      return;
+    }
+    PoseRow row;
+    row.image = in_.recording + ":" + std::to_string(computed->field);
+    if (computed->estimate != nullptr) {
+      row.estimate = computed->estimate;
+      row.covariance = computed->estimate->covariance;
+      row.has_tube = computed->has_tube;
+    }
+    append_pose_row(out_.pose_rows, row);
   }
 
   ReplayEnd ended(Error why) {

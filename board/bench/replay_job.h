@@ -19,7 +19,8 @@ namespace tubesight::board {
 
 /// What a replay reads; all opened and checked.
 struct ReplayInputs {
-  const std::string& session;  ///< name of the settings file, for messages
+  const std::string& session;    ///< name of the settings file, for messages
+  const std::string& recording;  ///< name of the recording, for the rows of poses
   const core::SessionSettings& settings;
   drivers::ReplayFrameGrabber& grabber;
   drivers::ReplayEvents& events;
@@ -31,6 +32,7 @@ struct ReplayOutputs {
   OverlaySink* overlay;  ///< null: none wanted
   bool overlay_estimates;
   PoseService& poses;
+  std::string& pose_rows;  ///< of `pose --csv`, one a request computed
   ReplayStatistics& statistics;
   ProgressLine& progress;
 };
