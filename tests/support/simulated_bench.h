@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "board/bench/pose_service.h"
+#include "board/box/pose_service.h"
 #include "core/session/session.h"
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_dimmer.h"

@@ -1,4 +1,4 @@
-#include "board/bench/pose_service.h"
+#include "board/box/pose_service.h"
 
 #include <cstddef>
 #include <utility>
