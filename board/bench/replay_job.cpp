@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "board/bench/overlay_composer.h"
 #include "board/bench/pose_rows.h"
+#include "board/box/overlay_composer.h"
 #include "core/base/instantiate.h"
 #include "core/session/session.h"
 

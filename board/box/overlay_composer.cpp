@@ -1,4 +1,4 @@
-#include "board/bench/overlay_composer.h"
+#include "board/box/overlay_composer.h"
 
 #include <algorithm>
 #include <cmath>
