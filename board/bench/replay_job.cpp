@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "board/bench/pose_rows.h"
+#include "board/box/frame_view.h"
 #include "board/box/overlay_composer.h"
+#include "board/box/overlay_snapshot.h"
 #include "core/base/instantiate.h"
 #include "core/session/session.h"
 
@@ -25,6 +27,15 @@ constexpr const char* kBeyondArithmetic =
     "2 "
     "mm apart and a picture within 60 degrees of the optical axis";
 
+/// What an overlay is made with.
+struct Display {
+  explicit Display(const core::SessionSettings& settings)
+      : view(settings.camera.width_px, settings.camera.height_px), composer(settings) {}
+
+  FrameView view;
+  OverlayComposer composer;
+};
+
 /// One replay; holds what a field needs, so that nothing large lies on the stack.
 template <core::Scalar S>
 class ReplayJob {
@@ -32,7 +43,7 @@ class ReplayJob {
   ReplayJob(ReplayInputs inputs, ReplayOutputs outputs)
       : in_(inputs), out_(outputs), feed_(inputs.settings.start) {
     if (outputs.overlay != nullptr) {
-      composer_.emplace(inputs.settings, outputs.overlay_estimates);
+      display_.emplace(inputs.settings);
     }
   }
 
@@ -71,8 +82,10 @@ class ReplayJob {
       message_ = out_.results.message();
       return written;
     }
-    if (composer_) {
-      const auto picture = composer_->compose(in_.grabber.frame(), number, session_, output_);
+    if (display_) {
+      describe<S>(session_, output_, number, out_.overlay_estimates, snapshot_);
+      display_->view.take(field);
+      const auto picture = display_->composer.compose(display_->view.picture(), snapshot_);
       if (const auto written = out_.overlay->add(number, picture); !written) {
         message_ = out_.overlay->message();
         return written;
@@ -121,7 +134,8 @@ class ReplayJob {
   core::session::Session<S> session_;
   core::session::Input input_;
   core::session::Output output_;
-  std::optional<OverlayComposer<S>> composer_;
+  std::optional<Display> display_;
+  OverlaySnapshot snapshot_;
   std::string message_;
 };
 
