@@ -38,18 +38,17 @@ void PoseService::take(const core::Field& field, std::int64_t number,
   computed_.reset();
   if (order.wanted) {
     job.begin(order);
+    order_ = order;
     ordered_at_ = number;
   }
   job.add_field(field);
   if (!job.ready()) {
     return;
   }
-  core::Event event;
-  event.kind = core::EventKind::kPoseResult;
-  event.pose = job.compute();
-  result_ = event;
+  const core::PoseResult pose = job.compute();
+  result_ = core::Event{order_.id, order_.origin, {}, pose};
   computed_ = Computed{ordered_at_, nullptr, false};
-  if (event.pose.reason == core::PoseReason::kNone) {
+  if (pose.reason == core::PoseReason::kNone) {
     computed_->estimate = &job.outcome().pose.estimate;
     computed_->has_tube =
         parts_->map.state(computed_->estimate->nearest) != core::TubeState::kAbsent;

@@ -6,7 +6,7 @@
 
 #include "core/base/event.h"
 #include "core/base/field.h"
-#include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "core/base/result.h"
 #include "core/base/settings.h"
 #include "core/pose/pose_estimate.h"
@@ -47,6 +47,7 @@ class PoseService {
   std::shared_ptr<Parts> parts_;  ///< some 3 MB, made by configure()
   std::optional<core::Event> result_;
   std::optional<Computed> computed_;
+  core::PoseOrder order_;  ///< the last
   std::int64_t ordered_at_ = 0;
 };
 
