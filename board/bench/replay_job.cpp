@@ -7,11 +7,17 @@
 #include <utility>
 
 #include "board/bench/pose_rows.h"
+#include "board/bench/replay_script.h"
+#include "board/bench/replay_station.h"
+#include "board/bench/script/scripted_ports.h"
+#include "board/box/box_loop.h"
 #include "board/box/frame_view.h"
 #include "board/box/overlay_composer.h"
 #include "board/box/overlay_snapshot.h"
 #include "core/base/instantiate.h"
+#include "core/base/snapshot.h"
 #include "core/session/session.h"
+#include "drivers/replay/replay_clock.h"
 
 namespace tubesight::board {
 namespace {
@@ -33,6 +39,8 @@ struct Display {
 
   FrameView view;
   OverlayComposer composer;
+  core::Snapshot<OverlaySnapshot> latest;
+  OverlaySnapshot shown;
 };
 
 /// One replay; holds what a field needs, so that nothing large lies on the stack.
@@ -40,7 +48,12 @@ template <core::Scalar S>
 class ReplayJob {
  public:
   ReplayJob(ReplayInputs inputs, ReplayOutputs outputs)
-      : in_(inputs), out_(outputs), feed_(inputs.settings.start) {
+      : in_(inputs),
+        out_(outputs),
+        script_(inputs.settings.start, inputs.events, inputs.grabber),
+        clock_(inputs.grabber),
+        link_(script_),
+        station_(script_, inputs.grabber, outputs.overlay) {
     if (outputs.overlay != nullptr) {
       display_.emplace(inputs.settings);
     }
@@ -50,55 +63,58 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    BoxLoop<S>& loop = loop_.emplace(
+        session_, BoxPorts{&in_.grabber, &clock_, nullptr, &link_, &station_}, services());
+    if (const auto started = loop.start(); !started) {
+      return ended(started.error());
+    }
     while (true) {
-      const auto lease = in_.grabber.grab_for(std::chrono::milliseconds(0));
-      if (!lease) {
-        return ended(lease.error());
+      if (const auto turned = loop.turn(std::chrono::milliseconds(0)); !turned) {
+        return ended(turned.error());
       }
-      if (const auto taken = take(lease->field()); !taken) {
+      if (const auto written = write_down(loop.input().field, loop.output()); !written) {
         return {ExitStatus::kJobFailed, false, {std::move(message_)}};
       }
     }
   }
 
  private:
-  Result<void> take(const core::Field& field) {
-    const std::int64_t number = field.number;
-    input_.field = field;
-    feed_.take_before(number, in_.events, input_.events);
-    hand_pose_result();
-    session_.step(input_, output_);
-    if (!in_.events.has_pose_results()) {
-      out_.poses.take(field, number, output_.order);
-      write_down_pose();
+  BoxServices services() {
+    BoxServices services;
+    // What the recording tells of poses is not computed again.
+    services.poses = in_.events.has_pose_results() ? nullptr : &out_.poses;
+    if (display_) {
+      services.view = &display_->view;
+      services.overlay = &display_->latest;
+      services.estimates = out_.overlay_estimates;
     }
-    out_.statistics.add(output_);
+    return services;
+  }
+
+  Result<void> write_down(const core::Field& field, const core::session::Output& output) {
+    write_down_pose();
+    out_.statistics.add(output);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
-            out_.results.add(number, field.parity, output_.sighting, output_.tubes);
+            out_.results.add(field.number, field.parity, output.sighting, output.tubes);
         !written) {
       message_ = out_.results.message();
       return written;
     }
-    if (display_) {
-      describe<S>(session_, output_, number, out_.overlay_estimates, snapshot_);
-      display_->view.take(field);
-      const auto picture = display_->composer.compose(display_->view.picture(), snapshot_);
-      if (const auto written = out_.overlay->add(number, picture); !written) {
-        message_ = out_.overlay->message();
-        return written;
-      }
-    }
-    return {};
+    return show(output.sighting);
   }
 
-  /// The pose that was computed since the last field; what finds no room waits.
-  void hand_pose_result() {
-    if (!input_.events.full()) {
-      if (const auto result = out_.poses.take_result()) {
-        static_cast<void>(input_.events.try_push_back(*result));
-      }
+  Result<void> show(const core::Sighting& sighting) {
+    // The loop has published just now, on this thread.
+    if (!display_ || !display_->latest.try_read(display_->shown)) {
+      return {};
     }
+    const auto picture = display_->composer.compose(display_->view.picture(), display_->shown);
+    const auto shown = station_.show(picture, sighting);
+    if (!shown) {
+      message_ = out_.overlay->message();
+    }
+    return shown;
   }
 
   /// The first cell is the recording and the number of the field that the request came before.
@@ -128,12 +144,13 @@ class ReplayJob {
 
   ReplayInputs in_;
   ReplayOutputs out_;
-  EventFeed feed_;
+  ReplayScript script_;
+  drivers::ReplayClock clock_;
+  ScriptedRobotLink link_;
+  ReplayStation station_;
   core::session::Session<S> session_;
-  core::session::Input input_;
-  core::session::Output output_;
   std::optional<Display> display_;
-  OverlaySnapshot snapshot_;
+  std::optional<BoxLoop<S>> loop_;
   std::string message_;
 };
 

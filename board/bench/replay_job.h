@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "board/bench/event_feed.h"
 #include "board/bench/exit_status.h"
 #include "board/bench/overlay_sink.h"
 #include "board/bench/progress_line.h"

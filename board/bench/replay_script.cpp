@@ -1,27 +1,23 @@
-#include "board/bench/event_feed.h"
+#include "board/bench/replay_script.h"
 
 namespace tubesight::board {
 
-EventFeed::EventFeed(const core::StartSettings& start) {
-  core::Event event;
-  event.origin = core::EventOrigin::kOperator;
-  event.content = core::Start{start.tubes, {}, false};
-  waiting_.push_back(event);
+ReplayScript::ReplayScript(const core::StartSettings& start, drivers::ReplayEvents& recorded,
+                           const drivers::ReplayFrameGrabber& grabber)
+    : recorded_(&recorded), grabber_(&grabber) {
+  start_.origin = core::EventOrigin::kOperator;
+  start_.content = core::Start{start.tubes, {}, false};
 }
 
-void EventFeed::take_before(std::int64_t field, drivers::ReplayEvents& recorded,
-                            core::EventList& events) {
-  recorded.take_before(field, events);
-  if (waiting_.empty()) {
-    return;
+const core::Event* ReplayScript::next() {
+  return started_ ? recorded_->next_before(grabber_->field_number()) : &start_;
+}
+
+void ReplayScript::take() {
+  if (started_) {
+    recorded_->take_next();
   }
-  waiting_.insert(waiting_.end(), events.begin(), events.end());
-  events.clear();
-  std::size_t handed = 0;
-  while (handed < waiting_.size() && events.try_push_back(waiting_[handed])) {
-    ++handed;
-  }
-  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(handed));
+  started_ = true;
 }
 
 }  // namespace tubesight::board

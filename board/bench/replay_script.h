@@ -1,31 +1,30 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
+#include "board/bench/script/event_script.h"
 #include "core/base/event.h"
 #include "core/base/settings.h"
 #include "drivers/replay/replay_events.h"
+#include "drivers/replay/replay_frame_grabber.h"
 
 namespace tubesight::board {
 
-/// Hands the events of a replay to the fields they belong before: the settings' start, then those
-/// of the recording's event file.
-class EventFeed {
+/// The script of a replay: the settings' start, then the recording's event file.
+class ReplayScript final : public EventScript {
  public:
-  /// `[start]` of the settings becomes a start event before the first field.
-  explicit EventFeed(const core::StartSettings& start);
+  /// `[start]` of the settings becomes a start event before the first field. `recorded` and
+  /// `grabber` outlive the script.
+  ReplayScript(const core::StartSettings& start, drivers::ReplayEvents& recorded,
+               const drivers::ReplayFrameGrabber& grabber);
 
-  /// Replaces `events` by those before the field with this number. What does not fit is handed
-  /// before the next field, in order. Call it for each field in turn.
-  void take_before(std::int64_t field, drivers::ReplayEvents& recorded, core::EventList& events);
-
-  /// Events that were due and not handed yet.
-  [[nodiscard]] std::size_t left() const { return waiting_.size(); }
+  [[nodiscard]] const core::Event* next() override;
+  void take() override;
+  [[nodiscard]] core::FieldTime field_time() const override { return grabber_->field_time(); }
 
  private:
-  std::vector<core::Event> waiting_;
+  core::Event start_;
+  bool started_ = false;  ///< the start was taken
+  drivers::ReplayEvents* recorded_;
+  const drivers::ReplayFrameGrabber* grabber_;
 };
 
 }  // namespace tubesight::board

@@ -1,77 +1,133 @@
-#include "board/bench/event_feed.h"
+#include "board/bench/replay_script.h"
 
+#include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "board/bench/script/scripted_ports.h"
 #include "tests/support/events.h"
+#include "tests/support/recording_text.h"
 
 namespace tubesight::board {
 namespace {
 
-using core::EventList;
+using tests::content_of;
+using tests::is;
 
-core::StartSettings start_of_rows(std::int32_t count) {
-  core::StartSettings start;
-  for (std::int32_t row = 0; row < count; ++row) {
-    EXPECT_TRUE(start.tubes.try_push_back({{row, 7}, {1.0, 2.0}}));
+/// A recording of 4 by 4 pixels at 25 frames a second, its events, and who plays them.
+class ReplayScriptTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    start_.tubes.clear();
+    ASSERT_TRUE(start_.tubes.try_push_back({{2, 7}, {1.0, 2.0}}));
+    ASSERT_TRUE(grabber_.start());
   }
-  return start;
-}
 
-drivers::ReplayEvents claims(int count, int field) {
-  std::string text = "field,time_s,kind,values\n";
-  for (int i = 0; i < count; ++i) {
-    text += std::to_string(field) + ",,claim,\"" + std::to_string(i) + ",0\"\n";
+  void record(const std::string& rows) {
+    drivers::Messages messages;
+    ASSERT_TRUE(events_.parse("field,time_s,kind,values\n" + rows, "events", messages));
   }
-  drivers::ReplayEvents events;
-  drivers::Messages messages;
-  EXPECT_TRUE(events.parse(text, "events", messages));
-  return events;
+
+  void grab() { ASSERT_TRUE(grabber_.grab_for(std::chrono::milliseconds(0))); }
+
+  static core::CameraSettings camera() {
+    core::CameraSettings camera;
+    camera.width_px = 4;
+    camera.height_px = 4;
+    camera.scan = core::Scan::kEvenFirst;
+    return camera;
+  }
+
+  std::string text_ = support::recording_text("YUV4MPEG2 W4 H4 F25:1 It Cmono", 4, 16);
+  drivers::ReplayFrameGrabber grabber_{camera(), support::source_of(text_), "r", ""};
+  drivers::ReplayEvents events_;
+  core::StartSettings start_;
+};
+
+TEST_F(ReplayScriptTest, BeginsWithTheSettingsStart) {
+  ReplayScript script(start_, events_, grabber_);
+  grab();
+
+  ASSERT_NE(script.next(), nullptr);
+  EXPECT_EQ(script.next()->origin, core::EventOrigin::kOperator);
+  const auto start = content_of<core::Start>(*script.next());
+  ASSERT_EQ(start.tubes.size(), 1);
+  EXPECT_EQ(start.tubes[0].address, (core::TubeAddress{2, 7}));
+  script.take();
+  EXPECT_EQ(script.next(), nullptr);
 }
 
-TEST(EventFeed, HandsTheSettingsStartBeforeTheFirstFieldOnly) {
-  EventFeed feed(start_of_rows(3));
-  drivers::ReplayEvents none;
-  EventList events;
+TEST_F(ReplayScriptTest, GivesRowsUpToTheFieldGrabbed) {
+  record("0,,claim,\"1,0\"\n1,,claim,\"2,0\"\n");
+  ReplayScript script(start_, events_, grabber_);
+  grab();
+  script.take();
 
-  feed.take_before(0, none, events);
-
-  ASSERT_EQ(events.size(), 1);
-  const auto start = tests::content_of<core::Start>(events[0]);
-  ASSERT_EQ(start.tubes.size(), 3);
-  EXPECT_EQ(start.tubes[2].address, (core::TubeAddress{2, 7}));
-  feed.take_before(1, none, events);
-  EXPECT_TRUE(events.empty());
+  ASSERT_NE(script.next(), nullptr);
+  EXPECT_EQ(content_of<core::Claim>(*script.next()).tube.row, 1);
+  script.take();
+  EXPECT_EQ(script.next(), nullptr);
+  grab();
+  ASSERT_NE(script.next(), nullptr);
+  EXPECT_EQ(content_of<core::Claim>(*script.next()).tube.row, 2);
+  EXPECT_EQ(events_.left(), 1U);
 }
 
-TEST(EventFeed, HandsRecordedEventsAfterTheStart) {
-  EventFeed feed(start_of_rows(3));
-  drivers::ReplayEvents recorded = claims(2, 0);
-  EventList events;
+TEST_F(ReplayScriptTest, IsPlayedInItsOwnOrderByRobotAndOperator) {
+  record("0,,claim,\"1,0\"\n0,,pick,\"3,4\"\n0,,claim,\"2,0\"\n");
+  ReplayScript script(start_, events_, grabber_);
+  ScriptedRobotLink link(script);
+  ScriptedOperatorStation station(script);
+  ASSERT_TRUE(link.start());
+  ASSERT_TRUE(station.start());
+  grab();
 
-  feed.take_before(0, recorded, events);
+  std::vector<char> who;
+  while (script.next() != nullptr) {
+    if (const auto said = link.poll_event(); said && said->has_value()) {
+      who.push_back('r');
+    }
+    if (const auto done = station.poll_event(); done && done->has_value()) {
+      who.push_back('o');
+    }
+  }
 
-  ASSERT_EQ(events.size(), 3);
-  EXPECT_TRUE(tests::is<core::Start>(events[0]));
-  EXPECT_EQ(tests::content_of<core::Claim>(events[1]).tube.row, 0);
-  EXPECT_EQ(tests::content_of<core::Claim>(events[2]).tube.row, 1);
+  EXPECT_EQ(who, (std::vector<char>{'o', 'r', 'o', 'r'}));
 }
 
-TEST(EventFeed, HandsWhatDoesNotFitBeforeTheNextField) {
-  EventFeed feed(start_of_rows(3));
-  drivers::ReplayEvents recorded = claims(core::kMaxEventsPerField, 0);
-  EventList events;
+TEST_F(ReplayScriptTest, GivesRowsWithoutAnInstantTheirFields) {
+  record("1,,claim,\"1,0\"\n");
+  ReplayScript script(start_, events_, grabber_);
+  ScriptedRobotLink link(script);
+  ASSERT_TRUE(link.start());
+  grab();
+  script.take();
+  grab();
 
-  feed.take_before(0, recorded, events);
+  const auto said = link.poll_event();
 
-  EXPECT_EQ(events.size(), 16);
-  EXPECT_EQ(tests::content_of<core::Claim>(events[15]).tube.row, 14);
-  EXPECT_EQ(feed.left(), 1U);
-  feed.take_before(1, recorded, events);
-  ASSERT_EQ(events.size(), 1);
-  EXPECT_EQ(tests::content_of<core::Claim>(events[0]).tube.row, 15);
-  EXPECT_EQ(feed.left(), 0U);
+  ASSERT_TRUE(said);
+  ASSERT_TRUE(said->has_value());
+  EXPECT_EQ((*said)->at, core::FieldTime(std::chrono::milliseconds(20)));
+}
+
+TEST_F(ReplayScriptTest, IsPlayedByNobodyBeforeTheStart) {
+  ReplayScript script(start_, events_, grabber_);
+  ScriptedOperatorStation station(script);
+  grab();
+
+  const auto polled = station.poll_event();
+
+  ASSERT_FALSE(polled);
+  EXPECT_EQ(polled.error(), core::Error::kNotReady);
+  EXPECT_FALSE(station.send_reply({}));
+  ASSERT_TRUE(station.start());
+  EXPECT_FALSE(station.start());
+  EXPECT_TRUE(station.send_reply({}));
+  EXPECT_NE(script.next(), nullptr) << "the row is still there";
 }
 
 }  // namespace
