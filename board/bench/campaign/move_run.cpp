@@ -3,21 +3,12 @@
 #include <chrono>
 
 #include "board/bench/campaign/random_plant.h"
-#include "board/bench/script/scripted_ports.h"
-#include "board/bench/script/simulated_script.h"
-#include "board/box/box_loop.h"
-#include "core/base/scalar.h"
-#include "core/session/session.h"
-#include "drivers/simulated/simulated_clock.h"
-#include "drivers/simulated/simulated_frame_grabber.h"
+#include "board/bench/script/simulated_box.h"
 
 namespace tubesight::board::campaign {
 namespace {
 
-using core::FixedPoint;
 using core::rendering::TubeEndKind;
-using drivers::SimulatedField;
-using Session = core::session::Session<FixedPoint>;
 
 FieldTruth truth_of(const drivers::FieldTruth& field) {
   FieldTruth truth;
@@ -55,30 +46,19 @@ class Digest {
 
 MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& options) {
   MoveResult result;
-  const auto session = std::make_unique<Session>();
-  drivers::SimulatedFrameGrabber grabber(*world_, scenario);
-  if (!grabber.start() || !session->configure(scenario.told)) {
+  const auto box = std::make_unique<SimulatedBox>(*world_, scenario);
+  if (!box->start()) {
     return result;
   }
   if (!options.margin_check) {
-    session->disable_margin_check_for_self_proof();
-  }
-  const drivers::SimulatedClock clock(grabber);
-  SimulatedScript script(grabber);
-  ScriptedRobotLink link(script);
-  ScriptedOperatorStation station(script);
-  // The world's own lamp obeys the scenario's commands: no dimmer.
-  const auto loop = std::make_unique<BoxLoop<FixedPoint>>(
-      *session, BoxPorts{&grabber, &clock, nullptr, &link, &station});
-  if (!loop->start()) {
-    return result;
+    box->session().disable_margin_check_for_self_proof();
   }
   result.runs = true;
   MoveJudge judge({scenario.told.verification.aligned_within_mm, pitch_mm(scenario.scene.sheet)});
   Digest digest;
-  const SimulatedField& field = grabber.last();
-  while (!judge.over() && loop->turn(std::chrono::milliseconds(0))) {
-    const core::Sighting& sighting = loop->output().sighting;
+  const drivers::SimulatedField& field = box->field();
+  while (!judge.over() && box->turn()) {
+    const core::Sighting& sighting = box->output().sighting;
     digest.add(sighting);
     const std::int64_t wrong_before = judge.first_wrong_field();
     judge.take(truth_of(field.truth), sighting);
