@@ -8,12 +8,12 @@
 #include "board/bench/output_paths.h"
 #include "board/bench/overlay_sink.h"
 #include "board/bench/pose_rows.h"
-#include "board/bench/pose_service.h"
 #include "board/bench/progress_line.h"
 #include "board/bench/replay_job.h"
 #include "board/bench/replay_statistics.h"
 #include "board/bench/result_files.h"
 #include "board/bench/summary_text.h"
+#include "board/box/pose_service.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
 #include "drivers/replay/companion.h"
@@ -99,10 +99,11 @@ class Replay {
   }
 
   ReplayEnd replay() {
-    const ReplayInputs inputs{options_.session, session_file_->settings, *grabber_, events_};
-    poses_.name_recording(options_.recording);
+    const ReplayInputs inputs{options_.session, options_.recording, session_file_->settings,
+                              *grabber_, events_};
     const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
-                                poses_,   statistics_,    progress_};
+                                poses_,   pose_rows_,     statistics_,
+                                progress_};
     switch (options_.scalar) {
       case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
       case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
@@ -137,7 +138,7 @@ class Replay {
       return false;
     }
     if (!options_.poses.empty() &&
-        (!poses_file_.write(std::string_view(poses_.rows())) || !poses_file_.commit())) {
+        (!poses_file_.write(std::string_view(pose_rows_)) || !poses_file_.commit())) {
       tell(poses_file_.message());
       return false;
     }
@@ -163,6 +164,7 @@ class Replay {
   ResultFiles results_;
   std::unique_ptr<OverlaySink> overlay_;
   PoseService poses_;
+  std::string pose_rows_;
   drivers::AtomicFile poses_file_;
   ReplayStatistics statistics_;
   ProgressLine progress_;

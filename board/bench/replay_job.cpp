@@ -6,9 +6,18 @@
 #include <string>
 #include <utility>
 
-#include "board/bench/overlay_composer.h"
+#include "board/bench/pose_rows.h"
+#include "board/bench/replay_script.h"
+#include "board/bench/replay_station.h"
+#include "board/bench/script/scripted_ports.h"
+#include "board/box/box_loop.h"
+#include "board/box/frame_view.h"
+#include "board/box/overlay_composer.h"
+#include "board/box/overlay_snapshot.h"
 #include "core/base/instantiate.h"
+#include "core/base/snapshot.h"
 #include "core/session/session.h"
+#include "drivers/replay/replay_clock.h"
 
 namespace tubesight::board {
 namespace {
@@ -23,14 +32,30 @@ constexpr const char* kBeyondArithmetic =
     "2 "
     "mm apart and a picture within 60 degrees of the optical axis";
 
+/// What an overlay is made with.
+struct Display {
+  explicit Display(const core::SessionSettings& settings)
+      : view(settings.camera.width_px, settings.camera.height_px), composer(settings) {}
+
+  FrameView view;
+  OverlayComposer composer;
+  core::Snapshot<OverlaySnapshot> latest;
+  OverlaySnapshot shown;
+};
+
 /// One replay; holds what a field needs, so that nothing large lies on the stack.
 template <core::Scalar S>
 class ReplayJob {
  public:
   ReplayJob(ReplayInputs inputs, ReplayOutputs outputs)
-      : in_(inputs), out_(outputs), feed_(inputs.settings.start) {
+      : in_(inputs),
+        out_(outputs),
+        script_(inputs.settings.start, inputs.events, inputs.grabber),
+        clock_(inputs.grabber),
+        link_(script_),
+        station_(script_, inputs.grabber, outputs.overlay) {
     if (outputs.overlay != nullptr) {
-      composer_.emplace(inputs.settings, outputs.overlay_estimates);
+      display_.emplace(inputs.settings);
     }
   }
 
@@ -38,52 +63,74 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    BoxLoop<S>& loop = loop_.emplace(
+        session_, BoxPorts{&in_.grabber, &clock_, nullptr, &link_, &station_}, services());
+    if (const auto started = loop.start(); !started) {
+      return ended(started.error());
+    }
     while (true) {
-      const auto lease = in_.grabber.grab_for(std::chrono::milliseconds(0));
-      if (!lease) {
-        return ended(lease.error());
+      if (const auto turned = loop.turn(std::chrono::milliseconds(0)); !turned) {
+        return ended(turned.error());
       }
-      if (const auto taken = take(lease->field()); !taken) {
+      if (const auto written = write_down(loop.input().field, loop.output()); !written) {
         return {ExitStatus::kJobFailed, false, {std::move(message_)}};
       }
     }
   }
 
  private:
-  Result<void> take(const core::Field& field) {
-    const std::int64_t number = field.number;
-    input_.field = field;
-    feed_.take_before(number, in_.events, input_.events);
-    hand_pose_result();
-    session_.step(input_, output_);
-    if (!in_.events.has_pose_results()) {
-      out_.poses.take(field, number, output_.order);
+  BoxServices services() {
+    BoxServices services;
+    // What the recording tells of poses is not computed again.
+    services.poses = in_.events.has_pose_results() ? nullptr : &out_.poses;
+    if (display_) {
+      services.view = &display_->view;
+      services.overlay = &display_->latest;
+      services.estimates = out_.overlay_estimates;
     }
-    out_.statistics.add(output_);
+    return services;
+  }
+
+  Result<void> write_down(const core::Field& field, const core::session::Output& output) {
+    write_down_pose();
+    out_.statistics.add(output);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
-            out_.results.add(number, field.parity, output_.sighting, output_.tubes);
+            out_.results.add(field.number, field.parity, output.sighting, output.tubes);
         !written) {
       message_ = out_.results.message();
       return written;
     }
-    if (composer_) {
-      const auto picture = composer_->compose(in_.grabber.frame(), number, session_, output_);
-      if (const auto written = out_.overlay->add(number, picture); !written) {
-        message_ = out_.overlay->message();
-        return written;
-      }
-    }
-    return {};
+    return show(output.sighting);
   }
 
-  /// The pose that was computed since the last field; what finds no room waits.
-  void hand_pose_result() {
-    if (!input_.events.full()) {
-      if (const auto result = out_.poses.take_result()) {
-        static_cast<void>(input_.events.try_push_back(*result));
-      }
+  Result<void> show(const core::Sighting& sighting) {
+    // The loop has published just now, on this thread.
+    if (!display_ || !display_->latest.try_read(display_->shown)) {
+      return {};
     }
+    const auto picture = display_->composer.compose(display_->view.picture(), display_->shown);
+    const auto shown = station_.show(picture, sighting);
+    if (!shown) {
+      message_ = out_.overlay->message();
+    }
+    return shown;
+  }
+
+  /// The first cell is the recording and the number of the field that the request came before.
+  void write_down_pose() {
+    const auto& computed = out_.poses.computed();
+    if (!computed) {
+      return;
+    }
+    PoseRow row;
+    row.image = in_.recording + ":" + std::to_string(computed->field);
+    if (computed->estimate != nullptr) {
+      row.estimate = computed->estimate;
+      row.covariance = computed->estimate->covariance;
+      row.has_tube = computed->has_tube;
+    }
+    append_pose_row(out_.pose_rows, row);
   }
 
   ReplayEnd ended(Error why) {
@@ -97,11 +144,13 @@ class ReplayJob {
 
   ReplayInputs in_;
   ReplayOutputs out_;
-  EventFeed feed_;
+  ReplayScript script_;
+  drivers::ReplayClock clock_;
+  ScriptedRobotLink link_;
+  ReplayStation station_;
   core::session::Session<S> session_;
-  core::session::Input input_;
-  core::session::Output output_;
-  std::optional<OverlayComposer<S>> composer_;
+  std::optional<Display> display_;
+  std::optional<BoxLoop<S>> loop_;
   std::string message_;
 };
 

@@ -2,13 +2,12 @@
 
 #include <string>
 
-#include "board/bench/event_feed.h"
 #include "board/bench/exit_status.h"
 #include "board/bench/overlay_sink.h"
-#include "board/bench/pose_service.h"
 #include "board/bench/progress_line.h"
 #include "board/bench/replay_statistics.h"
 #include "board/bench/result_files.h"
+#include "board/box/pose_service.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "drivers/files/messages.h"
@@ -19,7 +18,8 @@ namespace tubesight::board {
 
 /// What a replay reads; all opened and checked.
 struct ReplayInputs {
-  const std::string& session;  ///< name of the settings file, for messages
+  const std::string& session;    ///< name of the settings file, for messages
+  const std::string& recording;  ///< name of the recording, for the rows of poses
   const core::SessionSettings& settings;
   drivers::ReplayFrameGrabber& grabber;
   drivers::ReplayEvents& events;
@@ -31,6 +31,7 @@ struct ReplayOutputs {
   OverlaySink* overlay;  ///< null: none wanted
   bool overlay_estimates;
   PoseService& poses;
+  std::string& pose_rows;  ///< of `pose --csv`, one a request computed
   ReplayStatistics& statistics;
   ProgressLine& progress;
 };

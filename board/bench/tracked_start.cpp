@@ -6,12 +6,13 @@
 #include <limits>
 #include <utility>
 
-#include "board/bench/event_feed.h"
-#include "board/bench/words.h"
+#include "board/bench/replay_script.h"
+#include "board/bench/script/scripted_ports.h"
+#include "board/box/box_loop.h"
 #include "core/base/names.h"
 #include "core/session/session.h"
 #include "drivers/files/messages.h"
-#include "drivers/replay/companion.h"
+#include "drivers/replay/replay_clock.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
 
@@ -53,7 +54,10 @@ double smallest_distance(const PictureStarts& places) {
 /// One pass over one recording.
 struct TrackedStart::Run {
   Run(const core::SessionSettings& settings, std::string name, const core::StartSettings& start)
-      : recording(std::move(name)), grabber(settings.camera, recording), feed(start) {}
+      : recording(std::move(name)),
+        grabber(settings.camera, recording),
+        clock(grabber),
+        script(start, events, grabber) {}
 
   /// Opens everything; the message of a failure stays for every frame.
   bool open(const core::SessionSettings& settings, StartFrame where) {
@@ -67,36 +71,40 @@ struct TrackedStart::Run {
       messages = {recording + ": its frames cannot be tracked with these settings together"};
       good = false;
     }
+    good = good && loop.start();
     trouble = joined(messages);
     return good;
   }
 
   /// Takes one field; false when there is none.
   bool step(std::int64_t from_field) {
-    const auto lease = grabber.grab_for(std::chrono::milliseconds(0));
-    if (!lease) {
-      trouble = lease.error() == core::Error::kEndOfData
+    // Before the clicks nothing is known: those fields are passed over.
+    const std::int64_t last = grabber.field_number();
+    const std::int64_t next = last < 0 ? 0 : last + (grabber.interlaced() ? 1 : 2);
+    const bool known = next >= from_field;
+    const TrackState before = loop.output().sighting.state;
+    const auto taken = known ? loop.turn(std::chrono::milliseconds(0)) : pass_over();
+    if (!taken) {
+      trouble = taken.error() == core::Error::kEndOfData
                     ? recording + ": ends before the frame that is wanted"
                     : joined(grabber.messages());
       return false;
     }
     const std::int64_t number = grabber.field_number();
-    if (number < from_field) {
-      return true;  // before the clicks: nothing is known there
-    }
-    input.field = lease->field();
-    feed.take_before(number, events, input.events);
-    const TrackState before = output.sighting.state;
-    session.step(input, output);
-    if (number == from_field || output.sighting.state != before) {
+    if (known && (number == from_field || loop.output().sighting.state != before)) {
       state_since = number;
     }
     return true;
   }
 
+  core::Result<void> pass_over() {
+    const auto lease = grabber.grab_for(std::chrono::milliseconds(0));
+    return lease ? core::Result<void>() : core::Unexpected(lease.error());
+  }
+
   /// Why the field last taken does not tell which tubes are seen.
   [[nodiscard]] std::string why_unknown() const {
-    const core::Sighting& seen = output.sighting;
+    const core::Sighting& seen = loop.output().sighting;
     const auto refusal = session.tracker().start_refusal();
     const bool refused = seen.reason == core::Reason::kStartRefused;
     std::string text = "which tubes this frame shows is not known: ";
@@ -115,10 +123,12 @@ struct TrackedStart::Run {
   std::string recording;
   drivers::ReplayFrameGrabber grabber;
   drivers::ReplayEvents events;
-  EventFeed feed;
+  drivers::ReplayClock clock;
+  ReplayScript script;
+  ScriptedRobotLink link{script};
+  ScriptedOperatorStation station{script};
   core::session::Session<core::FixedPoint> session;
-  core::session::Input input;
-  core::session::Output output;
+  BoxLoop<core::FixedPoint> loop{session, BoxPorts{&grabber, &clock, nullptr, &link, &station}};
   std::int64_t state_since = 0;  ///< field from which the state is what it is
   std::string trouble;
 };
@@ -154,7 +164,7 @@ TrackedFrame TrackedStart::find(const std::string& recording, std::int64_t frame
       return failed(ExitStatus::kWrongInput, trouble);
     }
     if (run.grabber.field_number() >= 2 * frame && unknown.empty() &&
-        run.output.sighting.state != TrackState::kTracking) {
+        run.loop.output().sighting.state != TrackState::kTracking) {
       unknown = run.why_unknown();
     }
   }
@@ -162,14 +172,14 @@ TrackedFrame TrackedStart::find(const std::string& recording, std::int64_t frame
     return failed(ExitStatus::kJobFailed, unknown);
   }
   TrackedFrame found;
-  for (const core::TubeSighting& tube : run.output.tubes) {
+  for (const core::TubeSighting& tube : run.loop.output().tubes) {
     if (!tube.plug && tube.quality_permyriad > 0) {
       found.tubes.push_back(
           {tube.address, tube.center_px.u_q16 / kQ16, tube.center_px.v_q16 / kQ16});
     }
   }
-  if (run.output.sighting.tool_known) {
-    found.tool = run.output.sighting.tool;
+  if (run.loop.output().sighting.tool_known) {
+    found.tool = run.loop.output().sighting.tool;
   }
   return found;
 }

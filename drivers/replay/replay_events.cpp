@@ -272,12 +272,16 @@ Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
   return found.empty() ? Result<void>() : Unexpected(Error::kInvalidArgument);
 }
 
+const Event* ReplayEvents::next_before(std::int64_t field) const {
+  return taken_ < rows_.size() && rows_[taken_].field <= field ? &rows_[taken_].event : nullptr;
+}
+
 void ReplayEvents::take_before(std::int64_t field, core::EventList& events) {
   events.clear();
   // Were the list ever full, the rest would be handed before the next field.
-  while (taken_ < rows_.size() && rows_[taken_].field <= field &&
-         events.try_push_back(rows_[taken_].event)) {
-    ++taken_;
+  for (const Event* next = next_before(field); next != nullptr && events.try_push_back(*next);
+       next = next_before(field)) {
+    take_next();
   }
 }
 

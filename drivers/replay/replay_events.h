@@ -31,6 +31,13 @@ class ReplayEvents {
   /// turn. Allocates nothing.
   void take_before(std::int64_t field, core::EventList& events);
 
+  /// The first row that was not taken yet, if it belongs before the field with this number or an
+  /// earlier one; null: there is none. Valid until the next parse().
+  [[nodiscard]] const core::Event* next_before(std::int64_t field) const;
+
+  /// Takes the row that next_before() gave.
+  void take_next() { ++taken_; }
+
   /// Whether the file tells what became of pose requests: then they are not computed again.
   [[nodiscard]] bool has_pose_results() const { return has_pose_results_; }
 

@@ -1,5 +1,7 @@
 #include "drivers/simulated/simulated_frame_grabber.h"
 
+#include <algorithm>
+
 #include "core/base/assert.h"
 
 namespace tubesight::drivers {
@@ -13,6 +15,7 @@ Result<void> SimulatedFrameGrabber::start() {
     return Unexpected(Error::kNotReady);
   }
   TUBESIGHT_TRY(world_->configure(*scenario_));
+  latest_time_ = core::FieldTime(0);
   started_ = true;
   return {};
 }
@@ -29,6 +32,8 @@ Result<hal::FieldLease> SimulatedFrameGrabber::grab_for(std::chrono::millisecond
   if (!world_->next(last_)) {
     return Unexpected(Error::kEndOfData);
   }
+  ++delivered_;
+  latest_time_ = std::max(latest_time_, last_.field.mid_exposure);
   lent_ = true;
   return hal::FieldLease(*this, 0, last_.field);
 }

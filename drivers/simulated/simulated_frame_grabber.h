@@ -29,10 +29,18 @@ class SimulatedFrameGrabber final : public hal::FrameGrabber {
   /// Events and truth of the field last delivered.
   [[nodiscard]] const SimulatedField& last() const { return last_; }
 
+  /// Fields delivered so far.
+  [[nodiscard]] std::int64_t delivered() const { return delivered_; }
+
+  /// The latest instant of a field since start(), and the present of that world.
+  [[nodiscard]] core::FieldTime latest_time() const { return latest_time_; }
+
  private:
   SimulatedWorld* world_;
   const Scenario* scenario_;
   SimulatedField last_;
+  std::int64_t delivered_ = 0;
+  core::FieldTime latest_time_{0};
   bool started_ = false;
   bool lent_ = false;
 };

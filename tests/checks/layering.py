@@ -5,7 +5,8 @@ Usage: layering.py ROOT | layering.py --self-test
 
 Ours are included as "folder/file.h" from the repository's root, everything else in angle brackets
 and only from the list of the layer. Operating system and vendor headers belong to drivers and
-boards. Nothing below a board asks a clock: time comes with the field.
+boards. A board includes board/box, which all share and which knows no driver, and never another
+board. Nothing below a board asks a clock: time comes with the field.
 """
 import pathlib
 import re
@@ -44,6 +45,8 @@ MAY_INCLUDE = {
     "drivers/simulated": BASE + ["hal", "core/rendering", "core/kinematics"],
 }
 ANY_DRIVER = BASE + ["hal"]
+# What all boards share. It knows the ports and no adapter, so that any board can bring its own.
+BOX = "board/box"
 
 # No owning container, no stream, no std::function, no lock: what core and hal may take of std.
 CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
@@ -89,8 +92,13 @@ def own_include_problem(root, folder, target):
     to = folder_of(target)
     if to == folder:
         return None
-    if folder.startswith("board/"):
+    if folder.startswith("board/") and folder != BOX:
+        if to.startswith("board/") and to != BOX:
+            return f"{folder} may not include {to}: what boards share stands in {BOX}"
         return "a board may not include tests" if to == "tests" else None
+    if folder == BOX:
+        return (None if to == "hal" or to.startswith("core/")
+                else f"{BOX} may not include {to}: it knows the ports and the core alone")
     allowed = MAY_INCLUDE.get(folder, ANY_DRIVER if folder.startswith("drivers/") else None)
     if allowed is None:
         return f"the folder {folder} has no row in the table of tests/checks/layering.py"
@@ -98,6 +106,8 @@ def own_include_problem(root, folder, target):
 
 
 def system_include_problem(folder, target):
+    if folder == BOX:
+        return None if target in DRIVER_STD else f"<{target}> is not on the list of {folder}"
     if folder.startswith("board/"):
         return None
     if folder.startswith("drivers/"):
@@ -127,10 +137,10 @@ def check(root):
                        else system_include_problem(folder, target))
             if problem:
                 problems.append(f"{name}:{number}: {problem}")
-        if folder.startswith("board/"):
+        if folder.startswith("board/") and folder != BOX:
             continue
         rules = list(FORBIDDEN_BELOW_BOARD)
-        if not folder.startswith("drivers/"):
+        if folder.startswith("core/") or folder == "hal":
             rules += FORBIDDEN_IN_CORE
         for number, line in enumerate(code_only(text).splitlines(), 1):
             if line.lstrip().startswith("#"):
@@ -151,6 +161,16 @@ PLANTED = [
     ("board/bench/good.cpp", '#include <iostream>\n#include "drivers/files/own.h"\n', None),
     ("drivers/files/own.h", "", None),
     ("tests/support/fake.h", "", None),
+    ("board/box/good.h", '#include <vector>\n#include "hal/os.h"\n#include "core/camera/good.h"\n',
+     None),
+    ("board/bench/box.cpp", '#include "board/box/good.h"\n#include "board/bench/own.h"\n', None),
+    ("board/bench/own.h", "", None),
+    ("board/visionbox/bench.cpp", '#include "board/bench/own.h"\n', "may not include board/bench"),
+    ("board/box/bench.cpp", '#include "board/bench/own.h"\n', "may not include board/bench"),
+    ("board/box/driver.cpp", '#include "drivers/files/own.h"\n', "may not include drivers/files"),
+    ("board/box/fake.cpp", '#include "tests/support/fake.h"\n', "may not include tests"),
+    ("board/box/os.cpp", "#include <unistd.h>\n", "<unistd.h> is not on the list"),
+    ("board/box/clock.cpp", "auto t = std::chrono::steady_clock::now();\n", "asks a clock"),
     ("core/base/up.cpp", '#include "core/camera/good.h"\n', "core/base may not include core/camera"),
     ("core/camera/good.h", "", None),
     ("core/edges/side.cpp", '#include "core/camera/good.h"\n', "may not include core/camera"),

@@ -91,9 +91,7 @@ SimulatedBench::SimulatedBench()
     : robot_settings(make_ordinary_robot()),
       world_(std::make_unique<drivers::SimulatedWorld>()),
       robot_(std::make_unique<drivers::SimulatedRobot>()),
-      session_(std::make_unique<core::session::Session<core::FixedPoint>>()),
-      input_(std::make_unique<core::session::Input>()),
-      output_(std::make_unique<core::session::Output>()) {
+      session_(std::make_unique<core::session::Session<core::FixedPoint>>()) {
   make_ordinary_scenario(scenario);
 }
 
@@ -107,58 +105,24 @@ void SimulatedBench::start(const drivers::LineNoise& noise) {
   link_ = std::make_unique<drivers::SimulatedRobotLink>(*robot_, noise);
   ASSERT_TRUE(grabber_->start());
   world_->steer(robot_.get());
-  ASSERT_TRUE(dimmer_->start());
-  ASSERT_TRUE(dimmer_->set_level(1000));
-  ASSERT_TRUE(link_->start());
   ASSERT_TRUE(session_->configure(scenario.told));
   ASSERT_TRUE(poses_.configure(scenario.told));
-}
-
-void SimulatedBench::take_messages(core::EventList& events) {
-  while (!events.full()) {
-    const auto message = link_->poll_event();
-    if (!message) {
-      garbled_ += message.error() == core::Error::kDataLoss ? 1 : 0;
-      disconnected_ += message.error() == core::Error::kDisconnected ? 1 : 0;
-      if (message.error() != core::Error::kDataLoss) {
-        return;
-      }
-    } else if (!message->has_value()) {
-      return;
-    } else {
-      static_cast<void>(events.try_push_back(**message));  // there is room
-    }
-  }
-}
-
-void SimulatedBench::send() {
-  for (const core::Reply& reply : output_->replies) {
-    // A line that is gone loses the answer, and the robot asks again.
-    static_cast<void>(link_->send_reply(reply));
-  }
-  for (const core::Event& event : input_->events) {
-    if (const auto* const command = core::content_if<core::LampCommand>(event)) {
-      EXPECT_TRUE(dimmer_->set_level(command->permille));
-    }
-  }
-  static_cast<void>(link_->send_sighting(output_->sighting));
+  clock_ = std::make_unique<drivers::SimulatedClock>(*grabber_);
+  script_ = std::make_unique<board::SimulatedScript>(*grabber_);
+  station_ = std::make_unique<board::ScriptedOperatorStation>(*script_);
+  loop_ = std::make_unique<board::BoxLoop<core::FixedPoint>>(
+      *session_,
+      board::BoxPorts{grabber_.get(), clock_.get(), dimmer_.get(), link_.get(), station_.get()},
+      board::BoxServices{.poses = &poses_, .view = nullptr, .overlay = nullptr});
+  ASSERT_TRUE(loop_->start());
 }
 
 void SimulatedBench::step() {
-  auto lease = grabber_->grab_for(std::chrono::milliseconds(0));
-  ASSERT_TRUE(lease) << "the recording is too short";
-  input_->field = lease->field();
-  input_->events = grabber_->last().events;
-  if (const auto result = poses_.take_result()) {
-    ASSERT_TRUE(input_->events.try_push_back(*result));
-  }
-  take_messages(input_->events);
-  session_->step(*input_, *output_);
-  poses_.take(input_->field, fields_, output_->order);
-  send();
+  ASSERT_TRUE(loop_->turn(std::chrono::milliseconds(0))) << "the recording is too short";
+  ASSERT_EQ(script_->next(), nullptr) << "the scenario speaks for the robot, which is here itself";
+  EXPECT_EQ(loop_->counters().dimmer_errors, 0);
   const auto& axis = grabber_->last().truth.axis.nearest;
   wrong_ += sighting().aligned && sighting().tool != axis.address ? 1 : 0;
-  ++fields_;
 }
 
 void SimulatedBench::run(double seconds) {

@@ -4,9 +4,13 @@
 #include <memory>
 #include <optional>
 
-#include "board/bench/pose_service.h"
+#include "board/bench/script/scripted_ports.h"
+#include "board/bench/script/simulated_script.h"
+#include "board/box/box_loop.h"
+#include "board/box/pose_service.h"
 #include "core/session/session.h"
 #include "drivers/simulated/scenario.h"
+#include "drivers/simulated/simulated_clock.h"
 #include "drivers/simulated/simulated_dimmer.h"
 #include "drivers/simulated/simulated_frame_grabber.h"
 #include "drivers/simulated/simulated_robot.h"
@@ -49,23 +53,21 @@ class SimulatedBench {
   [[nodiscard]] drivers::SimulatedRobotLink& link() { return *link_; }
 
   /// Of the last field.
-  [[nodiscard]] const core::session::Output& output() const { return *output_; }
-  [[nodiscard]] const core::Sighting& sighting() const { return output_->sighting; }
+  [[nodiscard]] const core::session::Output& output() const { return loop_->output(); }
+  [[nodiscard]] const core::Sighting& sighting() const { return loop_->output().sighting; }
   [[nodiscard]] const drivers::FieldTruth& truth() const { return grabber_->last().truth; }
 
   /// Mean grey value over the box's window in the last frame.
   [[nodiscard]] double grey() const;
 
   /// Messages that came garbled, and fields in which the robot was gone.
-  [[nodiscard]] std::int64_t garbled() const { return garbled_; }
-  [[nodiscard]] std::int64_t disconnected() const { return disconnected_; }
+  [[nodiscard]] std::int64_t garbled() const { return loop_->counters().link.garbled; }
+  [[nodiscard]] std::int64_t disconnected() const { return loop_->counters().link.gone; }
   /// Fields whose answer vouched for a tube that is not the true one.
   [[nodiscard]] std::int64_t wrong() const { return wrong_; }
 
  private:
   void step();
-  void take_messages(core::EventList& events);
-  void send();
 
   std::unique_ptr<drivers::SimulatedWorld> world_;
   std::unique_ptr<drivers::SimulatedRobot> robot_;
@@ -73,12 +75,11 @@ class SimulatedBench {
   std::unique_ptr<drivers::SimulatedDimmer> dimmer_;
   std::unique_ptr<drivers::SimulatedRobotLink> link_;
   std::unique_ptr<core::session::Session<core::FixedPoint>> session_;
-  std::unique_ptr<core::session::Input> input_;
-  std::unique_ptr<core::session::Output> output_;
   board::PoseService poses_;
-  std::int64_t fields_ = 0;
-  std::int64_t garbled_ = 0;
-  std::int64_t disconnected_ = 0;
+  std::unique_ptr<drivers::SimulatedClock> clock_;
+  std::unique_ptr<board::SimulatedScript> script_;
+  std::unique_ptr<board::ScriptedOperatorStation> station_;
+  std::unique_ptr<board::BoxLoop<core::FixedPoint>> loop_;
   std::int64_t wrong_ = 0;
 };
 

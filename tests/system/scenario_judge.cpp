@@ -5,8 +5,8 @@
 #include <memory>
 #include <sstream>
 
+#include "board/bench/script/simulated_box.h"
 #include "core/base/names.h"
-#include "core/base/scalar.h"
 #include "core/session/session.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/simulated/simulated_world.h"
@@ -79,21 +79,16 @@ std::string ScenarioVerdict::text() const {
 ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
   ScenarioVerdict verdict;
   const auto world = std::make_unique<drivers::SimulatedWorld>();
-  const auto session = std::make_unique<core::session::Session<core::FixedPoint>>();
   const drivers::Scenario& scenario = file.scenario;
-  if (!world->configure(scenario) || !session->configure(scenario.told)) {
+  const auto box = std::make_unique<board::SimulatedBox>(*world, scenario);
+  if (!box->start()) {
     return verdict;
   }
   verdict.played = true;
   const double pitch_mm = drivers::shortest_step_mm(scenario.told.tubesheet);
-  const auto input = std::make_unique<core::session::Input>();
-  const auto output = std::make_unique<core::session::Output>();
-  drivers::SimulatedField field;
-  while (world->next(field)) {
-    input->field = field.field;
-    input->events = field.events;
-    session->step(*input, *output);
-    const core::Sighting& sighting = output->sighting;
+  const drivers::SimulatedField& field = box->field();
+  while (box->turn()) {
+    const core::Sighting& sighting = box->output().sighting;
     ++verdict.fields;
     verdict.end = sighting.state;
     if (sighting.state == core::TrackState::kLost) {
@@ -109,7 +104,7 @@ ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
     if (sighting.aligned && sighting.tool == nearest) {
       verdict.tubes.emplace(nearest.row, nearest.column);
     }
-    judge_replies(*output, verdict);
+    judge_replies(box->output(), verdict);
   }
   return verdict;
 }

@@ -3,23 +3,20 @@
 #include <chrono>
 
 #include "board/bench/campaign/random_plant.h"
-#include "core/base/scalar.h"
+#include "board/bench/script/simulated_box.h"
 
 namespace tubesight::board::campaign {
 namespace {
 
-using core::FixedPoint;
 using core::rendering::TubeEndKind;
-using drivers::SimulatedField;
-using Session = core::session::Session<FixedPoint>;
 
-FieldTruth truth_of(const SimulatedField& field) {
+FieldTruth truth_of(const drivers::FieldTruth& field) {
   FieldTruth truth;
-  const core::rendering::NearestTube& nearest = field.truth.axis.nearest;
+  const core::rendering::NearestTube& nearest = field.axis.nearest;
   truth.nearest = nearest.address;
-  truth.present = field.truth.axis_known && nearest.kind != TubeEndKind::kVoid;
+  truth.present = field.axis_known && nearest.kind != TubeEndKind::kVoid;
   truth.offset_mm = nearest.offset_mm;
-  truth.slip = {field.truth.slip[0], field.truth.slip[1]};
+  truth.slip = {field.slip[0], field.slip[1]};
   return truth;
 }
 
@@ -49,24 +46,22 @@ class Digest {
 
 MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& options) {
   MoveResult result;
-  const auto session = std::make_unique<Session>();
-  if (!world_->configure(scenario) || !session->configure(scenario.told)) {
+  const auto box = std::make_unique<SimulatedBox>(*world_, scenario);
+  if (!box->start()) {
     return result;
   }
   if (!options.margin_check) {
-    session->disable_margin_check_for_self_proof();
+    box->session().disable_margin_check_for_self_proof();
   }
   result.runs = true;
   MoveJudge judge({scenario.told.verification.aligned_within_mm, pitch_mm(scenario.scene.sheet)});
   Digest digest;
-  SimulatedField field;
-  while (!judge.over() && world_->next(field)) {
-    input_->field = field.field;
-    input_->events = field.events;
-    session->step(*input_, *output_);
-    digest.add(output_->sighting);
+  const drivers::SimulatedField& field = box->field();
+  while (!judge.over() && box->turn()) {
+    const core::Sighting& sighting = box->output().sighting;
+    digest.add(sighting);
     const std::int64_t wrong_before = judge.first_wrong_field();
-    judge.take(truth_of(field), output_->sighting);
+    judge.take(truth_of(field.truth), sighting);
     if (wrong_before < 0 && judge.first_wrong_field() >= 0) {
       result.first_wrong_field = field.slot;
       if (options.stop_at_wrong) {
@@ -79,9 +74,10 @@ MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& 
     for (std::int64_t slot = field.slot + 1; slot < world_->slots(); ++slot) {
       const double time_s = std::chrono::duration<double>(world_->slot_time(slot)).count();
       const auto axis = world_->truth().axis(world_->path().state_at(time_s).T_sheet_tool);
-      field.truth.axis_known = axis.has_value();
-      field.truth.axis = axis.value_or(core::rendering::AxisTruth{});
-      judge.take_unseen(truth_of(field));
+      drivers::FieldTruth unseen = field.truth;
+      unseen.axis_known = axis.has_value();
+      unseen.axis = axis.value_or(core::rendering::AxisTruth{});
+      judge.take_unseen(truth_of(unseen));
     }
   }
   result.counts = judge.counts();

@@ -4,7 +4,6 @@
 
 #include "board/bench/campaign/counts.h"
 #include "board/bench/campaign/move_judge.h"
-#include "core/session/session.h"
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_world.h"
 
@@ -33,8 +32,6 @@ class MoveRunner {
 
  private:
   std::unique_ptr<drivers::SimulatedWorld> world_ = std::make_unique<drivers::SimulatedWorld>();
-  std::unique_ptr<core::session::Input> input_ = std::make_unique<core::session::Input>();
-  std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
 };
 
 }  // namespace tubesight::board::campaign

@@ -1,4 +1,4 @@
-#include "board/bench/overlay_composer.h"
+#include "board/box/overlay_composer.h"
 
 #include <chrono>
 #include <cstdint>
@@ -42,6 +42,7 @@ class OverlayComposerTest : public ::testing::Test {
     input.field = lease->field();
     session_->step(input, *output_);
     ASSERT_EQ(output_->sighting.state, core::TrackState::kTracking);
+    describe<FixedPoint>(*session_, *output_, 0, false, *snapshot_);
   }
 
   std::unique_ptr<drivers::SessionFile> file_ = std::make_unique<drivers::SessionFile>();
@@ -49,6 +50,7 @@ class OverlayComposerTest : public ::testing::Test {
   std::unique_ptr<core::session::Session<FixedPoint>> session_ =
       std::make_unique<core::session::Session<FixedPoint>>();
   std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
+  std::unique_ptr<OverlaySnapshot> snapshot_ = std::make_unique<OverlaySnapshot>();
 };
 
 Rgb pixel_of(const core::RgbImageView& picture, PixelPoint at) {
@@ -67,7 +69,7 @@ PixelPoint between(core::ImagePoint from, core::ImagePoint to, double part) {
 }
 
 TEST_F(OverlayComposerTest, DrawsTheAxesFromThePrimaryTubeTowardsItsNeighbours) {
-  OverlayComposer<FixedPoint> composer(file_->settings, false);
+  OverlayComposer composer(file_->settings);
   const core::TubeAddress primary = output_->sighting.primary;
   core::ImagePoint row{};
   core::ImagePoint column{};
@@ -75,7 +77,7 @@ TEST_F(OverlayComposerTest, DrawsTheAxesFromThePrimaryTubeTowardsItsNeighbours) 
   ASSERT_TRUE(session_->tracker().locate({primary.row + 1, primary.column}, row));
   ASSERT_TRUE(session_->tracker().locate({primary.row, primary.column + 1}, column));
 
-  const auto picture = composer.compose(grabber_->frame(), 0, *session_, *output_);
+  const auto picture = composer.compose(grabber_->frame(), *snapshot_);
 
   const core::ImagePoint origin = output_->sighting.primary_px;
   EXPECT_EQ(pixel_of(picture, between(origin, row, 0.5)), core::overlay::palette::kRow);
@@ -83,10 +85,10 @@ TEST_F(OverlayComposerTest, DrawsTheAxesFromThePrimaryTubeTowardsItsNeighbours) 
 }
 
 TEST_F(OverlayComposerTest, KeepsTheRecordedPictureInGreyWhereNoMarkIs) {
-  OverlayComposer<FixedPoint> composer(file_->settings, false);
+  OverlayComposer composer(file_->settings);
   const core::ImageView frame = grabber_->frame();
 
-  const auto picture = composer.compose(frame, 0, *session_, *output_);
+  const auto picture = composer.compose(frame, *snapshot_);
 
   ASSERT_EQ(picture.width_px, frame.width_px);
   ASSERT_EQ(picture.height_px, frame.height_px);
@@ -100,18 +102,21 @@ TEST_F(OverlayComposerTest, KeepsTheRecordedPictureInGreyWhereNoMarkIs) {
 }
 
 TEST_F(OverlayComposerTest, DrawsEstimatesOnlyWhenAsked) {
-  OverlayComposer<FixedPoint> without(file_->settings, false);
-  OverlayComposer<FixedPoint> with(file_->settings, true);
+  OverlayComposer composer(file_->settings);
   const auto bytes_of = [](const core::RgbImageView& picture) {
     return std::vector<std::uint8_t>(
         picture.pixels,
         picture.pixels + static_cast<std::ptrdiff_t>(picture.height_px) * picture.stride_bytes);
   };
 
-  const auto plain = bytes_of(without.compose(grabber_->frame(), 0, *session_, *output_));
-  const auto marked = bytes_of(with.compose(grabber_->frame(), 0, *session_, *output_));
+  const auto plain = bytes_of(composer.compose(grabber_->frame(), *snapshot_));
+  describe<FixedPoint>(*session_, *output_, 0, true, *snapshot_);
+  const auto marked = bytes_of(composer.compose(grabber_->frame(), *snapshot_));
+  describe<FixedPoint>(*session_, *output_, 0, false, *snapshot_);
+  const auto again = bytes_of(composer.compose(grabber_->frame(), *snapshot_));
 
   EXPECT_NE(plain, marked);
+  EXPECT_EQ(plain, again);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "board/bench/pose_service.h"
+#include "board/box/pose_service.h"
 
 #include <cstddef>
 #include <utility>
@@ -35,6 +35,7 @@ core::Result<void> PoseService::configure(const core::SessionSettings& settings)
 void PoseService::take(const core::Field& field, std::int64_t number,
                        const core::PoseOrder& order) {
   core::pose::PoseRequestJob& job = parts_->job;
+  computed_.reset();
   if (order.wanted) {
     job.begin(order);
     order_ = order;
@@ -46,15 +47,12 @@ void PoseService::take(const core::Field& field, std::int64_t number,
   }
   const core::PoseResult pose = job.compute();
   result_ = core::Event{order_.id, order_.origin, {}, pose};
-  const bool known = pose.reason == core::PoseReason::kNone;
-  PoseRow row;
-  row.image = recording_ + ":" + std::to_string(ordered_at_);
-  if (known) {
-    row.estimate = &job.outcome().pose.estimate;
-    row.covariance = row.estimate->covariance;
-    row.has_tube = parts_->map.state(row.estimate->nearest) != core::TubeState::kAbsent;
+  computed_ = Computed{ordered_at_, nullptr, false};
+  if (pose.reason == core::PoseReason::kNone) {
+    computed_->estimate = &job.outcome().pose.estimate;
+    computed_->has_tube =
+        parts_->map.state(computed_->estimate->nearest) != core::TubeState::kAbsent;
   }
-  append_pose_row(rows_, row);
 }
 
 std::int64_t PoseService::unanswered() const {

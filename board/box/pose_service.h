@@ -3,20 +3,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "board/bench/pose_rows.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/reply.h"
 #include "core/base/result.h"
 #include "core/base/settings.h"
+#include "core/pose/pose_estimate.h"
 #include "core/pose/pose_request_job.h"
 
 namespace tubesight::board {
 
-/// Serves the pose requests of a replay: averages the fields from an order on, fits, and hands the
+/// Serves pose requests: averages the fields from an order on, fits, and hands the
 /// result back as the event before the next field. A box does the same beside its tracking thread.
 class PoseService {
  public:
@@ -34,20 +32,21 @@ class PoseService {
   /// not handed over yet; -1 without one. At the recording's end nobody answers it.
   [[nodiscard]] std::int64_t unanswered() const;
 
-  /// Rows of `pose --csv`, one a request computed; the first cell is the recording and the number
-  /// of the field that the request came before. Empty cells: no pose.
-  [[nodiscard]] const std::string& rows() const { return rows_; }
-
-  /// How the rows name the recording.
-  void name_recording(std::string name) { recording_ = std::move(name); }
+  /// What one request came to, for whoever writes it down in more detail than the event has.
+  struct Computed {
+    std::int64_t field = 0;  ///< number of the field that the request came before
+    const core::pose::PoseEstimate* estimate = nullptr;  ///< null: no pose
+    bool has_tube = false;                               ///< a tube stands at its nearest address
+  };
+  /// What the last take() computed; empty: nothing. Valid until the next one.
+  [[nodiscard]] const std::optional<Computed>& computed() const { return computed_; }
 
  private:
   struct Parts;
 
   std::shared_ptr<Parts> parts_;  ///< some 3 MB, made by configure()
   std::optional<core::Event> result_;
-  std::string recording_;
-  std::string rows_;
+  std::optional<Computed> computed_;
   core::PoseOrder order_;  ///< the last
   std::int64_t ordered_at_ = 0;
 };

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <chrono>
+
+#include "board/bench/script/scripted_ports.h"
+#include "board/bench/script/simulated_script.h"
+#include "board/box/box_loop.h"
+#include "core/base/result.h"
+#include "core/base/scalar.h"
+#include "core/session/session.h"
+#include "drivers/simulated/scenario.h"
+#include "drivers/simulated/simulated_clock.h"
+#include "drivers/simulated/simulated_frame_grabber.h"
+#include "drivers/simulated/simulated_world.h"
+
+namespace tubesight::board {
+
+/// A box that watches a scenario in memory, in fixed point: its robot and operator do what the
+/// scenario says, and the world's own lamp obeys its commands. Some 400 KB: heap.
+class SimulatedBox {
+ public:
+  using Session = core::session::Session<core::FixedPoint>;
+
+  /// Both outlive the box.
+  SimulatedBox(drivers::SimulatedWorld& world, const drivers::Scenario& scenario)
+      : scenario_(&scenario), grabber_(world, scenario) {}
+  SimulatedBox(const SimulatedBox&) = delete;
+  SimulatedBox& operator=(const SimulatedBox&) = delete;
+
+  /// Goes to the start of the scenario. Errors: those of SimulatedWorld::configure() and
+  /// Session::configure(). Call once.
+  [[nodiscard]] core::Result<void> start();
+
+  /// Takes the next field. kEndOfData: there was none.
+  [[nodiscard]] core::Result<void> turn() { return loop_.turn(std::chrono::milliseconds(0)); }
+
+  [[nodiscard]] Session& session() { return session_; }
+
+  /// The last field with its truth, and what the box made of it.
+  [[nodiscard]] const drivers::SimulatedField& field() const { return grabber_.last(); }
+  [[nodiscard]] const core::session::Output& output() const { return loop_.output(); }
+
+ private:
+  const drivers::Scenario* scenario_;
+  drivers::SimulatedFrameGrabber grabber_;
+  drivers::SimulatedClock clock_{grabber_};
+  SimulatedScript script_{grabber_};
+  ScriptedRobotLink link_{script_};
+  ScriptedOperatorStation station_{script_};
+  Session session_;
+  BoxLoop<core::FixedPoint> loop_{session_,
+                                  BoxPorts{&grabber_, &clock_, nullptr, &link_, &station_}};
+};
+
+}  // namespace tubesight::board

@@ -1,0 +1,256 @@
+#include "board/box/box_loop.h"
+
+#include "core/base/assert.h"
+#include "core/base/instantiate.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::Error;
+using core::Result;
+using core::Unexpected;
+
+/// Garbled messages that one turn looks past: a line of noise must not keep the field waiting.
+constexpr std::int32_t kMostGarbled = core::kMaxEventsPerField;
+
+}  // namespace
+
+template <core::Scalar S>
+BoxLoop<S>::BoxLoop(core::session::Session<S>& session, const BoxPorts& ports,
+                    const BoxServices& services)
+    : session_(&session), ports_(ports), services_(services) {
+  TUBESIGHT_ASSERT(ports.grabber != nullptr && ports.clock != nullptr);
+}
+
+template <core::Scalar S>
+Result<void> BoxLoop<S>::start() {
+  if (started_) {
+    return Unexpected(Error::kNotReady);
+  }
+  const auto started = [this]() -> Result<void> {
+    if (ports_.dimmer != nullptr) {
+      TUBESIGHT_TRY(ports_.dimmer->start());
+      TUBESIGHT_TRY(ports_.dimmer->set_level(hal::kFullLevel_permille));
+    }
+    if (ports_.link != nullptr) {
+      TUBESIGHT_TRY(ports_.link->start());
+    }
+    return ports_.station != nullptr ? ports_.station->start() : Result<void>();
+  }();
+  started_ = true;
+  if (!started) {
+    stop();
+  }
+  return started;
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::stop() {
+  if (!started_) {
+    return;
+  }
+  started_ = false;
+  if (ports_.station != nullptr) {
+    ports_.station->stop();
+  }
+  if (ports_.link != nullptr) {
+    ports_.link->stop();
+  }
+  if (ports_.dimmer != nullptr) {
+    ports_.dimmer->stop();
+  }
+}
+
+template <core::Scalar S>
+Result<void> BoxLoop<S>::turn(std::chrono::milliseconds timeout) {
+  if (frame_half_missing_) {
+    turn_without_field();
+    return {};
+  }
+  const auto lease = ports_.grabber->grab_for(timeout);
+  if (lease) {
+    core::Field field = lease->field();
+    number(field);
+    take(field);
+    return {};
+  }
+  if (lease.error() != Error::kTimeout) {
+    return Unexpected(lease.error());
+  }
+  turn_without_field();
+  return {};
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::turn_without_field() {
+  const bool progressive = parity_ == core::Parity::kProgressive;
+  core::Field field;
+  field.status = core::FieldStatus::kMissing;
+  field.mid_exposure = ports_.clock->now();
+  field.lamp_permille = input_.field.lamp_permille;
+  // Files count two numbers a frame, of which a progressive one uses the first.
+  const std::int64_t numbers = progressive ? 2 : 1;
+  field.number = last_number_ + (last_number_ < 0 ? 1 : numbers);
+  number_shift_ += numbers;
+  frame_half_missing_ = !progressive && !frame_half_missing_;
+  ++counters_.missing;
+  take(field);
+}
+
+/// Numbers go on where missing fields took some, and where a grabber that was started anew counts
+/// from 0 again. They are shifted by whole frames, so that an earlier field's stays even.
+template <core::Scalar S>
+void BoxLoop<S>::number(core::Field& field) {
+  const std::int64_t behind = last_number_ + 1 - (field.number + number_shift_);
+  if (behind > 0) {
+    number_shift_ += behind + behind % 2;
+  }
+  field.number += number_shift_;
+  parity_ = field.parity;
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::take(const core::Field& field) {
+  input_.field = field;
+  last_number_ = field.number;
+  input_.lamp_dimmed = ports_.dimmer != nullptr;
+  if (input_.lamp_dimmed) {
+    input_.field.lamp_permille = ports_.dimmer->level_permille();
+  }
+  gather_events();
+  session_->step(input_, output_);
+  ++counters_.fields;
+  answer();
+  set_lamp();
+  serve_poses();
+  publish();
+}
+
+/// The events since the last field in time order, as many as a step takes; the others wait where
+/// they are.
+template <core::Scalar S>
+void BoxLoop<S>::gather_events() {
+  input_.events.clear();
+  asked_enough_.fill(false);
+  garbled_now_ = 0;
+  while (!input_.events.full()) {
+    // Asked anew after each event, as ports may know an order among themselves: those of a
+    // recording hand out its rows one after the other.
+    fetch(kLink);
+    fetch(kStation);
+    fetch(kPoses);
+    std::optional<core::Event>* const next = earliest();
+    if (next == nullptr) {
+      return;
+    }
+    static_cast<void>(input_.events.try_push_back(**next));  // there is room
+    next->reset();
+  }
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::fetch(Source source) {
+  if (next_[source] || asked_enough_[source]) {
+    return;
+  }
+  if (source == kLink) {
+    fetch_from(ports_.link, source, counters_.link);
+  } else if (source == kStation) {
+    fetch_from(ports_.station, source, counters_.station);
+  } else if (services_.poses != nullptr) {
+    next_[source] = services_.poses->take_result();
+  }
+  if (next_[source] && !next_[source]->at) {
+    next_[source]->at = ports_.clock->now();
+  }
+}
+
+template <core::Scalar S>
+template <typename Port>
+void BoxLoop<S>::fetch_from(Port* port, Source source, PortCounters& counters) {
+  while (port != nullptr) {
+    const auto polled = port->poll_event();
+    if (polled) {
+      next_[source] = *polled;
+      return;
+    }
+    if (polled.error() != Error::kDataLoss) {
+      ++counters.gone;
+      break;
+    }
+    ++counters.garbled;
+    if (++garbled_now_ >= kMostGarbled) {
+      break;
+    }
+  }
+  asked_enough_[source] = true;
+}
+
+template <core::Scalar S>
+std::optional<core::Event>* BoxLoop<S>::earliest() {
+  std::optional<core::Event>* first = nullptr;
+  for (std::optional<core::Event>& event : next_) {
+    if (event && (first == nullptr || event->at < (*first)->at)) {
+      first = &event;
+    }
+  }
+  return first;
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::answer() {
+  for (const core::Reply& reply : output_.replies) {
+    if (reply.origin == core::EventOrigin::kRobot) {
+      send(ports_.link, reply, counters_.link);
+    } else {
+      send(ports_.station, reply, counters_.station);
+    }
+  }
+  if (ports_.link != nullptr) {
+    // A line that is gone was counted when it was polled, and the next sighting replaces this.
+    static_cast<void>(ports_.link->send_sighting(output_.sighting));
+  }
+}
+
+/// Whoever gets no answer asks again.
+template <core::Scalar S>
+template <typename Port>
+void BoxLoop<S>::send(Port* port, const core::Reply& reply, PortCounters& counters) {
+  if (port == nullptr || !port->send_reply(reply)) {
+    ++counters.lost_replies;
+  }
+}
+
+/// A level that the dimmer refused is tried again after the next field.
+template <core::Scalar S>
+void BoxLoop<S>::set_lamp() {
+  if (ports_.dimmer == nullptr) {
+    return;
+  }
+  const std::int32_t wanted = output_.lamp_permille;
+  if (wanted != ports_.dimmer->level_permille() && !ports_.dimmer->set_level(wanted)) {
+    ++counters_.dimmer_errors;
+  }
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::serve_poses() {
+  if (services_.poses != nullptr) {
+    services_.poses->take(input_.field, input_.field.number, output_.order);
+  }
+}
+
+template <core::Scalar S>
+void BoxLoop<S>::publish() {
+  if (services_.view != nullptr) {
+    services_.view->take(input_.field);
+  }
+  if (services_.overlay != nullptr) {
+    describe<S>(*session_, output_, input_.field.number, services_.estimates, overlay_);
+    services_.overlay->publish(overlay_);
+  }
+}
+
+TUBESIGHT_INSTANTIATE_CLASS(BoxLoop)
+
+}  // namespace tubesight::board

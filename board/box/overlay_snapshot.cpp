@@ -1,0 +1,66 @@
+#include "board/box/overlay_snapshot.h"
+
+#include <algorithm>
+
+#include "core/base/instantiate.h"
+#include "core/tracking/candidates.h"
+
+namespace tubesight::board {
+namespace {
+
+template <core::Scalar S>
+std::optional<core::ImagePoint> locate(const core::tracking::Tracker<S>& tracker,
+                                       core::TubeAddress address) {
+  core::ImagePoint pixel;
+  return tracker.locate(address, pixel) ? std::optional(pixel) : std::nullopt;
+}
+
+template <core::Scalar S>
+void list_estimates(const core::tracking::Tracker<S>& tracker, OverlaySnapshot& snapshot) {
+  core::tracking::CandidateList<S> expected;
+  tracker.list_estimates(expected);
+  for (const auto& tube : expected) {
+    // The lists are of one capacity.
+    static_cast<void>(snapshot.estimates.try_push_back(
+        {tube.address,
+         {core::to_scaled(tube.center_px.x, 16), core::to_scaled(tube.center_px.y, 16)},
+         tube.state}));
+  }
+  for (const core::TubeSighting& seen : snapshot.tubes) {
+    const auto same = std::find_if(
+        snapshot.estimates.begin(), snapshot.estimates.end(),
+        [&](const core::overlay::Estimate& estimate) { return estimate.address == seen.address; });
+    if (seen.plug && same != snapshot.estimates.end()) {
+      same->state = core::TubeState::kPlugged;
+    }
+  }
+}
+
+}  // namespace
+
+template <core::Scalar S>
+void describe(const core::session::Session<S>& session, const core::session::Output& output,
+              std::int64_t field, bool estimates, OverlaySnapshot& snapshot) {
+  snapshot.field = field;
+  snapshot.sighting = output.sighting;
+  snapshot.tubes = output.tubes;
+  snapshot.next_row_px.reset();
+  snapshot.next_column_px.reset();
+  if (output.sighting.primary_known) {
+    const core::TubeAddress primary = output.sighting.primary;
+    snapshot.next_row_px = locate<S>(session.tracker(), {primary.row + 1, primary.column});
+    snapshot.next_column_px = locate<S>(session.tracker(), {primary.row, primary.column + 1});
+  }
+  snapshot.estimates.clear();
+  if (estimates) {
+    list_estimates<S>(session.tracker(), snapshot);
+  }
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                            \
+  template void describe<S>(const core::session::Session<S>&, const core::session::Output&, \
+                            std::int64_t, bool, OverlaySnapshot&);
+TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#undef TUBESIGHT_INSTANTIATE
+
+}  // namespace tubesight::board
