@@ -29,7 +29,7 @@ class RobotLink {
 
   /// Takes the next message of the robot, in the order of their arrival; empty: none has come.
   ///
-  /// Never waits. Kinds: kClaim, kStart, kLampCommand, kPoseRequest; others never come. A start has
+  /// Never waits. Kinds: Claim, Start, LampCommand, PoseRequest; others never come. A start has
   /// at most core::kMaxStartPoints tubes, a lamp command is within 0..1000, as the driver checks.
   ///
   /// Errors: kDataLoss a message came garbled and was dropped, or so many waited that one was: call
@@ -37,15 +37,14 @@ class RobotLink {
   /// delivers again when it is back); kIo the line failed; kNotReady not started.
   [[nodiscard]] virtual core::Result<std::optional<core::Event>> poll_event() = 0;
 
-  /// Sends the answer to one event of the robot. `asked` goes with it, so that a robot of whose
-  /// messages one was lost does not take the answer for that to another.
+  /// Sends the answer to one event of the robot, with the event's id and what was claimed, so that
+  /// a robot of whose messages one was lost does not take the answer for that to another.
   ///
   /// Hands the message to the line and does not wait for it to be sent. Pose results answer the
   /// request that they belong to. Errors, after which nothing of the message was sent:
   /// kBufferTooSmall the line is slower than the answers, kDisconnected the robot is gone, kIo the
   /// line failed, kNotReady not started.
-  [[nodiscard]] virtual core::Result<void> send_reply(const core::Event& asked,
-                                                      const core::Reply& reply) = 0;
+  [[nodiscard]] virtual core::Result<void> send_reply(const core::Reply& reply) = 0;
 
   /// Sends what the box sees, unasked. One that the line has no room for is left out without an
   /// error, as the next replaces it. Errors: kDisconnected, kIo, kNotReady as send_reply().

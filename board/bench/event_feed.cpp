@@ -4,8 +4,8 @@ namespace tubesight::board {
 
 EventFeed::EventFeed(const core::StartSettings& start) {
   core::Event event;
-  event.kind = core::EventKind::kStart;
-  event.start = start.tubes;
+  event.origin = core::EventOrigin::kOperator;
+  event.content = core::Start{start.tubes, {}, false};
   waiting_.push_back(event);
 }
 

@@ -37,17 +37,16 @@ void PoseService::take(const core::Field& field, std::int64_t number,
   core::pose::PoseRequestJob& job = parts_->job;
   if (order.wanted) {
     job.begin(order);
+    order_ = order;
     ordered_at_ = number;
   }
   job.add_field(field);
   if (!job.ready()) {
     return;
   }
-  core::Event event;
-  event.kind = core::EventKind::kPoseResult;
-  event.pose = job.compute();
-  result_ = event;
-  const bool known = event.pose.reason == core::PoseReason::kNone;
+  const core::PoseResult pose = job.compute();
+  result_ = core::Event{order_.id, order_.origin, {}, pose};
+  const bool known = pose.reason == core::PoseReason::kNone;
   PoseRow row;
   row.image = recording_ + ":" + std::to_string(ordered_at_);
   if (known) {

@@ -9,7 +9,7 @@
 #include "board/bench/pose_rows.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
-#include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "core/base/result.h"
 #include "core/base/settings.h"
 #include "core/pose/pose_request_job.h"
@@ -48,6 +48,7 @@ class PoseService {
   std::optional<core::Event> result_;
   std::string recording_;
   std::string rows_;
+  core::PoseOrder order_;  ///< the last
   std::int64_t ordered_at_ = 0;
 };
 

@@ -17,7 +17,6 @@ using core::Error;
 using core::Result;
 using core::Unexpected;
 
-constexpr std::int32_t kFullLamp_permille = 1000;
 /// What make_tracking_model() asks for beyond the ranges of the single keys.
 constexpr const char* kBeyondArithmetic =
     ": the tracking cannot compute with these settings together, expected neighbouring tubes from "
@@ -52,16 +51,15 @@ class ReplayJob {
 
  private:
   Result<void> take(const core::Field& field) {
-    const std::int64_t number = in_.grabber.field_number();
+    const std::int64_t number = field.number;
     input_.field = field;
-    input_.lamp_permille = in_.grabber.lamp_permille().value_or(kFullLamp_permille);
     feed_.take_before(number, in_.events, input_.events);
     hand_pose_result();
     session_.step(input_, output_);
     if (!in_.events.has_pose_results()) {
       out_.poses.take(field, number, output_.order);
     }
-    out_.statistics.add(input_.events, output_);
+    out_.statistics.add(output_);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
             out_.results.add(number, field.parity, output_.sighting, output_.tubes);

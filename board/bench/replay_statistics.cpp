@@ -5,12 +5,10 @@
 
 namespace tubesight::board {
 
-using core::EventKind;
 using core::FieldTime;
 using core::TrackState;
-using Verdict = core::session::Reply::Verdict;
 
-void ReplayStatistics::add(const core::EventList& events, const core::session::Output& output) {
+void ReplayStatistics::add(const core::session::Output& output) {
   const core::Sighting& sighting = output.sighting;
   if (fields_ == 0) {
     begin_ = sighting.time;
@@ -25,8 +23,8 @@ void ReplayStatistics::add(const core::EventList& events, const core::session::O
   ++fields_;
   previous_ = sighting;
   take_sighting(output);
-  for (std::int32_t i = 0; i < std::min(events.size(), output.replies.size()); ++i) {
-    take_reply(events[i], output.replies[i], sighting.time);
+  for (const core::Reply& reply : output.replies) {
+    take_reply(reply);
   }
 }
 
@@ -74,37 +72,39 @@ void ReplayStatistics::take_sighting(const core::session::Output& output) {
   }
 }
 
-void ReplayStatistics::take_reply(const core::Event& event, const core::session::Reply& reply,
-                                  FieldTime time) {
-  if (reply.verdict == Verdict::kNotServed) {
-    ++not_served_;
-    return;
-  }
-  switch (reply.kind) {
-    case EventKind::kStart: starts_.push_back({time, reply.refusal}); break;
-    case EventKind::kClaim:
-      if (reply.verdict == Verdict::kConfirmed) {
-        ++claims_confirmed_;
-      } else if (reply.verdict == Verdict::kContradicted) {
-        contradictions_.push_back({time, event.claim, reply.tube});
-      } else {
-        ++claims_unknown_;
-      }
-      break;
-    case EventKind::kPick:
-      ++(reply.verdict == Verdict::kConfirmed ? picks_named_ : picks_unknown_);
-      break;
-    case EventKind::kPoseRequest:
-      if (reply.verdict == Verdict::kRefused) {
-        poses_.push_back({time, reply.pose, false});
-      }
-      break;
-    case EventKind::kPoseResult:
-      poses_.push_back({time, reply.pose, reply.verdict == Verdict::kContradicted});
-      break;
-    case EventKind::kLampCommand:
-    case EventKind::kAcknowledge: break;
-  }
+void ReplayStatistics::take_reply(const core::Reply& reply) {
+  using core::ClaimVerdict;
+  using core::PoseVerdict;
+  std::visit(
+      core::Overloaded{
+          [this](const core::NotServedReply&) { ++not_served_; },
+          [&](const core::StartReply& start) {
+            starts_.push_back({reply.at, start.refusal});
+          },
+          [&](const core::ClaimReply& claim) {
+            if (claim.verdict == ClaimVerdict::kConfirmed) {
+              ++claims_confirmed_;
+            } else if (claim.verdict == ClaimVerdict::kContradicted) {
+              contradictions_.push_back({reply.at, claim.claimed, claim.tube});
+            } else {
+              ++claims_unknown_;
+            }
+          },
+          [this](const core::PickReply& pick) {
+            ++(pick.doubt == core::PickDoubt::kNone ? picks_named_ : picks_unknown_);
+          },
+          [&](const core::PoseRequestReply& request) {
+            if (request.refusal != core::PoseReason::kNone) {
+              core::PoseResult refused;
+              refused.reason = request.refusal;
+              poses_.push_back({reply.at, refused, false});
+            }
+          },
+          [&](const core::PoseReply& pose) {
+            poses_.push_back({reply.at, pose.pose, pose.verdict == PoseVerdict::kContradicted});
+          },
+          [](const core::LampReply&) {}},
+      reply.content);
 }
 
 }  // namespace tubesight::board

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "board/bench/visit_log.h"
-#include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "core/base/sighting.h"
 #include "core/base/tube_address.h"
 #include "core/session/session.h"
@@ -47,8 +47,8 @@ class ReplayStatistics {
   static constexpr std::size_t kReasons =
       std::size_t{1} + static_cast<std::size_t>(core::Reason::kArithmetic);
 
-  /// Takes what step() left for a field that had these events before it.
-  void add(const core::EventList& events, const core::session::Output& output);
+  /// Takes what step() left for a field.
+  void add(const core::session::Output& output);
 
   /// Ends the account. Call once, after the last field.
   void finish();
@@ -95,8 +95,7 @@ class ReplayStatistics {
  private:
   void account(core::FieldTime span);
   void take_sighting(const core::session::Output& output);
-  void take_reply(const core::Event& event, const core::session::Reply& reply,
-                  core::FieldTime time);
+  void take_reply(const core::Reply& reply);
 
   std::int64_t fields_ = 0;
   core::FieldTime begin_{0};

@@ -50,6 +50,9 @@ std::string_view name_of(StartRefusal refusal) {
     case StartRefusal::kHeight: return "height";
     case StartRefusal::kSize: return "size";
     case StartRefusal::kPicture: return "picture";
+    case StartRefusal::kMoved: return "moved";
+    case StartRefusal::kUnknownField: return "unknown-field";
+    case StartRefusal::kSuperseded: return "superseded";
   }
   return "";
 }
@@ -65,6 +68,10 @@ std::string_view explain(StartRefusal refusal) {
       return "the tube-ends' distances do not fit a tool below this sheet";
     case StartRefusal::kSize: return "the tube-ends' sizes do not fit bore_mm";
     case StartRefusal::kPicture: return "other tube-ends are not where the clicks put them";
+    case StartRefusal::kMoved: return "the tool moved since the picture that was clicked into";
+    case StartRefusal::kUnknownField:
+      return "the picture clicked into is none that the box has seen";
+    case StartRefusal::kSuperseded: return "another start came before the same field";
   }
   return "";
 }

@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <variant>
 
+#include "core/base/field.h"
 #include "core/base/pose_result.h"
 #include "core/base/settings.h"
 #include "core/base/static_vector.h"
@@ -10,25 +13,51 @@
 
 namespace tubesight::core {
 
-/// What can happen between two fields; the `kind` of an event file.
-enum class EventKind : std::uint8_t {
-  kClaim,        ///< the robot says under which tube it believes its guidetube to be
-  kStart,        ///< the operator names tube-ends by clicks
-  kLampCommand,  ///< a lamp level asked for
-  kPoseRequest,  ///< the robot asks for its pose
-  kPick,         ///< the operator points at a place of the picture
-  kAcknowledge,  ///< the operator has seen a message
-  kPoseResult,   ///< what became of a pose request, from whoever computed it
+/// The robot says under which tube it believes its guidetube to be, at the event's instant.
+struct Claim {
+  TubeAddress tube{};
 };
 
-/// One event; only the members of its kind are valid.
+/// Somebody names tube-ends by clicks.
+struct Start {
+  StaticVector<StartPoint, kMaxStartPoints> tubes;
+  /// Number of the field in whose picture the clicks were made; empty: the one that follows.
+  std::optional<std::int64_t> seen_field;
+  bool confirmed = false;  ///< a person insists on it against a warning
+};
+
+/// A lamp level asked for, 0..1000.
+struct LampCommand {
+  std::int32_t permille = 0;
+};
+
+/// The robot asks for its pose.
+struct PoseRequest {};
+
+/// The operator points at a place of the picture.
+struct Pick {
+  std::array<double, 2> at_px{};           ///< full-frame pixels
+  std::optional<std::int64_t> seen_field;  ///< as in Start
+};
+
+/// The operator has seen a message.
+struct Acknowledge {};
+
+/// Who sent an event and gets the reply.
+enum class EventOrigin : std::uint8_t {
+  kRobot,     ///< over the robot's link
+  kOperator,  ///< from the operator's station
+};
+
+/// One event: what happened, when, and how the answer will be named.
 struct Event {
-  EventKind kind = EventKind::kClaim;
-  TubeAddress claim{};                              ///< kClaim
-  StaticVector<StartPoint, kMaxStartPoints> start;  ///< kStart
-  std::array<double, 2> pick_px{};                  ///< kPick
-  std::int32_t lamp_permille = 0;                   ///< kLampCommand, 0..1000
-  PoseResult pose;                                  ///< kPoseResult
+  std::int64_t id = 0;  ///< chosen by the sender and sent back with the reply
+  EventOrigin origin = EventOrigin::kRobot;
+  /// When it happened, on the clock that stamps the fields; empty: in the field that follows.
+  std::optional<FieldTime> at;
+  /// What happened; a PoseResult is what became of a pose request, from whoever computed it, under
+  /// the request's id.
+  std::variant<Claim, Start, LampCommand, PoseRequest, Pick, Acknowledge, PoseResult> content;
 };
 
 /// Events that one step takes: at 115,200 baud a link brings fewer than ten requests a field.
@@ -36,5 +65,19 @@ inline constexpr std::int32_t kMaxEventsPerField = 16;
 
 /// The events since the last field, in time order.
 using EventList = StaticVector<Event, kMaxEventsPerField>;
+
+/// The content of an event or reply if it is of kind T, and else null.
+template <typename T, typename Told>
+[[nodiscard]] constexpr auto* content_if(Told& told) {
+  return std::get_if<T>(&told.content);
+}
+
+/// Several callables as one, for std::visit: each takes the kinds that it names.
+template <typename... Callables>
+struct Overloaded : Callables... {
+  using Callables::operator()...;
+};
+template <typename... Callables>
+Overloaded(Callables...) -> Overloaded<Callables...>;
 
 }  // namespace tubesight::core

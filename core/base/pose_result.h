@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdint>
 
-#include "core/base/sighting.h"
-#include "core/base/static_vector.h"
 #include "core/base/tube_address.h"
 
 namespace tubesight::core {
@@ -32,21 +30,6 @@ struct PoseResult {
   std::int32_t tubes = 0;  ///< tube-ends used
   TubeAddress nearest{};   ///< to the guidetube's axis
   std::int64_t offset_nm = 0;
-};
-
-/// A tube-end to begin a pose with, and where its centre is.
-struct PoseOrderTube {
-  TubeAddress address;
-  ImagePoint center_px;
-};
-
-/// Tube-ends that an order names: as many as give a safe first pose.
-inline constexpr std::int32_t kMaxPoseOrderTubes = 12;
-
-/// The pose that a request asks for, handed to whoever computes it from this field on.
-struct PoseOrder {
-  bool wanted = false;
-  StaticVector<PoseOrderTube, kMaxPoseOrderTubes> tubes;
 };
 
 }  // namespace tubesight::core

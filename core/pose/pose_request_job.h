@@ -6,6 +6,7 @@
 
 #include "core/base/field.h"
 #include "core/base/pose_result.h"
+#include "core/base/reply.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
 #include "core/pose/rest_average.h"

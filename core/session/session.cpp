@@ -6,22 +6,22 @@
 namespace tubesight::core::session {
 namespace {
 
-using Verdict = Reply::Verdict;
-
-Reply answer_claim(const Event& event, const Sighting& sighting) {
-  Reply reply{EventKind::kClaim, Verdict::kUnknown, {}, {}, {}};
+ClaimReply answer_claim(const Claim& claim, const Sighting& sighting) {
+  ClaimReply reply;
+  reply.claimed = claim.tube;
   if (sighting.aligned) {
     reply.tube = sighting.tool;
-    reply.verdict = event.claim == sighting.tool ? Verdict::kConfirmed : Verdict::kContradicted;
+    reply.verdict =
+        claim.tube == sighting.tool ? ClaimVerdict::kConfirmed : ClaimVerdict::kContradicted;
   }
   return reply;
 }
 
 template <Scalar S>
-Reply answer_pick(const Event& event, const tracking::Tracker<S>& tracker) {
-  Reply reply{EventKind::kPick, Verdict::kUnknown, {}, {}, {}};
-  if (tracker.identify(tracking::make_image_point(event.pick_px), reply.tube)) {
-    reply.verdict = Verdict::kConfirmed;
+PickReply answer_pick(const Pick& pick, const tracking::Tracker<S>& tracker) {
+  PickReply reply;
+  if (!tracker.identify(tracking::make_image_point(pick.at_px), reply.tube)) {
+    reply.doubt = PickDoubt::kNotTracking;
   }
   return reply;
 }
@@ -37,14 +37,14 @@ bool is_moving(const Sighting& sighting) {
          (fast(sighting.velocity_um_s[0]) || fast(sighting.velocity_um_s[1]));
 }
 
-Reply answer_pose_result(const Event& event, const Sighting& sighting) {
-  Reply reply{EventKind::kPoseResult, Verdict::kRefused, {}, {}, event.pose};
-  if (event.pose.reason == PoseReason::kNone) {
-    reply.verdict = Verdict::kUnknown;
+PoseReply answer_pose_result(const PoseResult& pose, const Sighting& sighting) {
+  PoseReply reply{PoseVerdict::kRefused, {}, pose};
+  if (pose.reason == PoseReason::kNone) {
+    reply.verdict = PoseVerdict::kUnknown;
     if (sighting.tool_known) {
       reply.tube = sighting.tool;
       reply.verdict =
-          event.pose.nearest == sighting.tool ? Verdict::kConfirmed : Verdict::kContradicted;
+          pose.nearest == sighting.tool ? PoseVerdict::kConfirmed : PoseVerdict::kContradicted;
     }
   }
   return reply;
@@ -53,19 +53,15 @@ Reply answer_pose_result(const Event& event, const Sighting& sighting) {
 }  // namespace
 
 template <Scalar S>
-Reply Session<S>::answer_pose_request(Output& output) {
-  Reply reply{EventKind::kPoseRequest, Verdict::kRefused, {}, {}, {}};
+PoseRequestReply Session<S>::answer_pose_request(const Event& event, Output& output) {
   if (pose_awaited_ > 0) {
-    reply.pose.reason = PoseReason::kBusy;
-    return reply;
+    return {PoseReason::kBusy};
   }
   if (output.sighting.state != TrackState::kTracking) {
-    reply.pose.reason = PoseReason::kNotTracking;
-    return reply;
+    return {PoseReason::kNotTracking};
   }
   if (is_moving(output.sighting)) {
-    reply.pose.reason = PoseReason::kMoving;
-    return reply;
+    return {PoseReason::kMoving};
   }
   for (const TubeSighting& tube : output.tubes) {
     if (!tube.plug && tube.quality_permyriad > 0) {
@@ -73,41 +69,39 @@ Reply Session<S>::answer_pose_request(Output& output) {
     }
   }
   output.order.wanted = true;
+  output.order.id = event.id;
+  output.order.origin = event.origin;
   pose_awaited_ = kPoseRequestLasts;
-  reply.verdict = Verdict::kTaken;
-  reply.pose.reason = PoseReason::kNone;
-  return reply;
+  return {PoseReason::kNone};
 }
 
 template <Scalar S>
 void Session<S>::step(const Input& input, Output& output) {
   output.replies.clear();
-  output.lamp_permille = input.lamp_permille;
+  output.lamp_permille = input.field.lamp_permille;
   output.order.wanted = false;
   output.order.tubes.clear();
   pose_awaited_ = pose_awaited_ > 0 ? pose_awaited_ - 1 : 0;
   for (const Event& event : input.events) {
-    if (event.kind == EventKind::kStart) {
-      tracker_.request_start(tracking::make_start_clicks(event.start));
+    if (const auto* const start = content_if<Start>(event)) {
+      tracker_.request_start(tracking::make_start_clicks(start->tubes));
     }
   }
   tracker_.step(input.field, output.sighting, output.tubes);
   for (const Event& event : input.events) {
-    Reply reply{event.kind, Verdict::kNotServed, {}, {}, {}};
-    if (event.kind == EventKind::kClaim) {
-      reply = answer_claim(event, output.sighting);
-    } else if (event.kind == EventKind::kPick) {
-      reply = answer_pick<S>(event, tracker_);
-    } else if (event.kind == EventKind::kPoseRequest) {
-      reply = answer_pose_request(output);
-    } else if (event.kind == EventKind::kPoseResult) {
-      pose_awaited_ = 0;
-      reply = answer_pose_result(event, output.sighting);
-    } else if (event.kind == EventKind::kStart) {
-      reply.refusal = tracker_.start_refusal();
-      reply.verdict =
-          reply.refusal == tracking::StartRefusal::kNone ? Verdict::kTaken : Verdict::kRefused;
-    }
+    Reply reply{event.id, event.origin, input.field.mid_exposure, NotServedReply{}};
+    std::visit(
+        Overloaded{
+            [&](const Claim& claim) { reply.content = answer_claim(claim, output.sighting); },
+            [&](const Start&) { reply.content = StartReply{tracker_.start_refusal()}; },
+            [&](const Pick& pick) { reply.content = answer_pick<S>(pick, tracker_); },
+            [&](const PoseRequest&) { reply.content = answer_pose_request(event, output); },
+            [&](const PoseResult& pose) {
+              pose_awaited_ = 0;
+              reply.content = answer_pose_result(pose, output.sighting);
+            },
+            [](const LampCommand&) {}, [](const Acknowledge&) {}},
+        event.content);
     static_cast<void>(output.replies.try_push_back(reply));
   }
 }

@@ -4,7 +4,6 @@
 
 #include "core/base/event.h"
 #include "core/base/field.h"
-#include "core/base/pose_result.h"
 #include "core/base/reply.h"
 #include "core/base/result.h"
 #include "core/base/scalar.h"
@@ -17,20 +16,16 @@ namespace tubesight::core::session {
 /// What one step is given.
 struct Input {
   Field field;
-  std::int32_t lamp_permille = 1000;  ///< level in force while the field was exposed
-  EventList events;                   ///< since the last field, in time order
+  EventList events;  ///< since the last field, in time order
 };
-
-using core::Reply;
-using core::ReplyList;
 
 /// What one step leaves; reused from field to field.
 struct Output {
   Sighting sighting;
-  tracking::TubeSightingList tubes;   ///< measured tube-ends and recognised plugs
-  ReplyList replies;                  ///< one for each event, in order
-  std::int32_t lamp_permille = 1000;  ///< level wanted
-  PoseOrder order;                    ///< a pose to compute, from this field's picture on
+  tracking::TubeSightingList tubes;                 ///< measured tube-ends and recognised plugs
+  ReplyList replies;                                ///< in the order of their making
+  std::int32_t lamp_permille = kFullLamp_permille;  ///< level wanted
+  PoseOrder order;  ///< a pose to compute, from this field's picture on
 };
 
 /// Fields that a pose request waits for its result; then another one is taken. Ten seconds of 60
@@ -75,7 +70,7 @@ class Session {
  private:
   tracking::TrackingModel<S> model_{};
   tubesheet::SheetMap map_{};
-  [[nodiscard]] Reply answer_pose_request(Output& output);
+  [[nodiscard]] PoseRequestReply answer_pose_request(const Event& event, Output& output);
 
   tracking::Tracker<S> tracker_;
   std::int32_t pose_awaited_ = 0;  ///< fields that the pending pose request has left

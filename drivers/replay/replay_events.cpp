@@ -14,29 +14,12 @@ namespace {
 
 using core::Error;
 using core::Event;
-using core::EventKind;
+using core::EventOrigin;
 using core::Result;
 using core::Unexpected;
 
 constexpr std::size_t kMostMessages = 20;
 
-struct Kind {
-  std::string_view word;
-  EventKind kind;
-  const char* values;  ///< what the column `values` is expected to hold
-};
-
-constexpr std::array kKinds = {
-    Kind{"claim", EventKind::kClaim, "R,C (row and column)"},
-    Kind{"start", EventKind::kStart, "3 to 8 clicks R,C,U,V separated by ';'"},
-    Kind{"lamp", EventKind::kLampCommand, "a level from 0 to 1000"},
-    Kind{"pose", EventKind::kPoseRequest, "nothing"},
-    Kind{"pick", EventKind::kPick, "U,V (pixels)"},
-    Kind{"acknowledge", EventKind::kAcknowledge, "nothing"},
-    Kind{"pose-result", EventKind::kPoseResult,
-         "16 numbers (tubes, row, column, x, y, z mm, alpha, beta, gamma deg, their sigmas, offset "
-         "mm) or a reason"},
-};
 static_assert(core::kMaxStartPoints == 8);
 
 /// Cuts the text before the first `separator` off the front.
@@ -74,16 +57,19 @@ bool parse_px(std::string_view text, double& px) {
 
 bool parse_start(std::string_view text, Event& event) {
   constexpr std::int32_t kFewest = 3;
+  core::Start start;
+  event.origin = EventOrigin::kOperator;
   while (!text.empty()) {
     std::array<std::string_view, 4> parts;
     core::StartPoint point;
     if (!split(cut(text, ';'), ',', parts) || !parse_whole(parts[0], point.address.row) ||
         !parse_whole(parts[1], point.address.column) || !parse_px(parts[2], point.at_px[0]) ||
-        !parse_px(parts[3], point.at_px[1]) || !event.start.try_push_back(point)) {
+        !parse_px(parts[3], point.at_px[1]) || !start.tubes.try_push_back(point)) {
       return false;
     }
   }
-  return event.start.size() >= kFewest;
+  event.content = start;
+  return start.tubes.size() >= kFewest;
 }
 
 bool parse_pose_reason(std::string_view text, core::PoseReason& reason) {
@@ -122,25 +108,68 @@ bool parse_pose_result(std::string_view text, core::PoseResult& pose) {
   return true;
 }
 
-bool parse_values(std::string_view text, Event& event) {
+bool parse_claim(std::string_view text, Event& event) {
   std::array<std::string_view, 2> pair;
-  switch (event.kind) {
-    case EventKind::kClaim:
-      return split(text, ',', pair) && parse_whole(pair[0], event.claim.row) &&
-             parse_whole(pair[1], event.claim.column);
-    case EventKind::kStart: return parse_start(text, event);
-    case EventKind::kLampCommand:
-      return parse_whole(text, event.lamp_permille) && event.lamp_permille >= 0 &&
-             event.lamp_permille <= 1000;
-    case EventKind::kPick:
-      return split(text, ',', pair) && parse_px(pair[0], event.pick_px[0]) &&
-             parse_px(pair[1], event.pick_px[1]);
-    case EventKind::kPoseResult: return parse_pose_result(text, event.pose);
-    case EventKind::kPoseRequest:
-    case EventKind::kAcknowledge: return text.empty();
-  }
-  return false;
+  core::Claim claim;
+  const bool good = split(text, ',', pair) && parse_whole(pair[0], claim.tube.row) &&
+                    parse_whole(pair[1], claim.tube.column);
+  event.content = claim;
+  return good;
 }
+
+bool parse_lamp(std::string_view text, Event& event) {
+  core::LampCommand lamp;
+  const bool good = parse_whole(text, lamp.permille) && lamp.permille >= 0 && lamp.permille <= 1000;
+  event.content = lamp;
+  return good;
+}
+
+bool parse_pick(std::string_view text, Event& event) {
+  std::array<std::string_view, 2> pair;
+  core::Pick pick;
+  const bool good = split(text, ',', pair) && parse_px(pair[0], pick.at_px[0]) &&
+                    parse_px(pair[1], pick.at_px[1]);
+  event.origin = EventOrigin::kOperator;
+  event.content = pick;
+  return good;
+}
+
+bool parse_pose_request(std::string_view text, Event& event) {
+  event.content = core::PoseRequest{};
+  return text.empty();
+}
+
+bool parse_acknowledge(std::string_view text, Event& event) {
+  event.origin = EventOrigin::kOperator;
+  event.content = core::Acknowledge{};
+  return text.empty();
+}
+
+bool parse_pose_result(std::string_view text, Event& event) {
+  core::PoseResult pose;
+  const bool good = parse_pose_result(text, pose);
+  event.content = pose;
+  return good;
+}
+
+struct Kind {
+  std::string_view word;
+  const char* values;  ///< what the column `values` is expected to hold
+  bool (*parse)(std::string_view values, Event& event);
+};
+
+constexpr std::array kKinds = {
+    Kind{"claim", "R,C (row and column)", parse_claim},
+    Kind{"start", "3 to 8 clicks R,C,U,V separated by ';'", parse_start},
+    Kind{"lamp", "a level from 0 to 1000", parse_lamp},
+    Kind{"pose", "nothing", parse_pose_request},
+    Kind{"pick", "U,V (pixels)", parse_pick},
+    Kind{"acknowledge", "nothing", parse_acknowledge},
+    Kind{"pose-result",
+         "16 numbers (tubes, row, column, x, y, z mm, alpha, beta, gamma deg, their sigmas, offset "
+         "mm) or a reason",
+         parse_pose_result},
+};
 
 /// The column `values`: the last one, so that commas in it need no quotation marks as long as the
 /// header has no further columns.
@@ -185,9 +214,8 @@ bool parse_row(const CsvReader& csv, std::int64_t& field, Event& event, Messages
     complain("kind", cells[2], "claim, start, lamp, pose, pick, acknowledge or pose-result");
     return false;
   }
-  event.kind = kind->kind;
   const std::string values = values_of(csv);
-  if (!parse_values(values, event)) {
+  if (!kind->parse(values, event)) {
     complain("values", values, std::string(kind->values) + " for " + std::string(kind->word));
   }
   return good;
@@ -236,7 +264,8 @@ Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
         continue;
       }
       rows_.push_back(row);
-      has_pose_results_ = has_pose_results_ || row.event.kind == EventKind::kPoseResult;
+      has_pose_results_ =
+          has_pose_results_ || core::content_if<core::PoseResult>(row.event) != nullptr;
     }
   }
   messages.insert(messages.end(), found.begin(), found.end());

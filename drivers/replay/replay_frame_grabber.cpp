@@ -78,7 +78,6 @@ Result<void> ReplayFrameGrabber::start() {
   later_field_ = false;
   field_number_ = -1;
   sequence_ = 0;
-  lamp_permille_.reset();
   TUBESIGHT_TRY(open());
   TUBESIGHT_TRY(check_header());
   TUBESIGHT_TRY(check_rate_or_meta());
@@ -189,6 +188,7 @@ Result<void> ReplayFrameGrabber::check_meta_used_up() {
 }
 
 Result<void> ReplayFrameGrabber::describe(std::int64_t number, core::Field& field) {
+  field.number = number;
   field.sequence = sequence_;
   if (!has_meta_) {
     const Y4mHeader& header = reader_.header();
@@ -204,7 +204,7 @@ Result<void> ReplayFrameGrabber::describe(std::int64_t number, core::Field& fiel
   field.sequence = row->sequence;
   field.mid_exposure = row->time;
   field.status = row->status;
-  lamp_permille_ = row->lamp_permille;
+  field.lamp_permille = row->lamp_permille.value_or(core::kFullLamp_permille);
   return {};
 }
 

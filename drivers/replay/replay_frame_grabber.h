@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,9 +50,6 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   /// an interlaced frame. -1 before the first.
   [[nodiscard]] std::int64_t field_number() const { return field_number_; }
 
-  /// Lamp level in force for the field last delivered, where the meta file tells it.
-  [[nodiscard]] std::optional<std::int32_t> lamp_permille() const { return lamp_permille_; }
-
   /// The last frame read, both fields: to draw an overlay on. Valid until the next grab_for().
   [[nodiscard]] core::ImageView frame() const;
 
@@ -90,7 +86,6 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   bool has_meta_ = false;
   std::vector<std::uint8_t> pixels_;
   Messages messages_;
-  std::optional<std::int32_t> lamp_permille_;
   std::int64_t field_number_ = -1;
   std::int64_t sequence_ = 0;
   bool started_ = false;

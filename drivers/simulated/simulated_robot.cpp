@@ -11,7 +11,6 @@ namespace {
 
 using core::Error;
 using core::Event;
-using core::EventKind;
 using core::Reply;
 using core::Result;
 using core::Transform;
@@ -131,12 +130,6 @@ Result<JointVector> SimulatedRobot::walk(const ToolPlace& from, const ToolPlace&
   return angles;
 }
 
-bool SimulatedRobot::say(EventKind kind) {
-  Event event;
-  event.kind = kind;
-  return say(event);
-}
-
 JointVector SimulatedRobot::shafts_at(double time_s) {
   const SheetTool wanted = path_.state_at(time_s - path_zero_s_).T_sheet_tool;
   auto solution = core::kinematics::reach(believed_, wanted, shafts_rad_, follow());
@@ -171,8 +164,7 @@ void SimulatedRobot::claim_when_due() {
   }
   if (const auto tube = believed_tube()) {
     Event event;
-    event.kind = EventKind::kClaim;
-    event.claim = *tube;
+    event.content = core::Claim{*tube};
     say(event);  // a controller whose line is stopped up says no more
   }
 }
@@ -223,18 +215,18 @@ std::optional<Event> SimulatedRobot::take_message() {
   return first;
 }
 
-void SimulatedRobot::hear(const Event& asked, const Reply& reply) {
+void SimulatedRobot::hear(const Reply& reply) {
   ++heard_.replies;
-  if (reply.kind == EventKind::kPoseRequest || reply.kind == EventKind::kPoseResult) {
-    heard_.last_pose = reply;
+  if (const auto* const request = core::content_if<core::PoseRequestReply>(reply)) {
+    heard_.last_request = *request;
+  } else if (const auto* const pose = core::content_if<core::PoseReply>(reply)) {
+    heard_.last_pose = *pose;
+  } else if (const auto* const claim = core::content_if<core::ClaimReply>(reply)) {
+    heard_.last_claim = *claim;
+    heard_.confirmed += claim->verdict == core::ClaimVerdict::kConfirmed ? 1 : 0;
+    heard_.contradicted += claim->verdict == core::ClaimVerdict::kContradicted ? 1 : 0;
+    heard_.unknown += claim->verdict == core::ClaimVerdict::kUnknown ? 1 : 0;
   }
-  if (reply.kind != EventKind::kClaim) {
-    return;
-  }
-  heard_.last_claim = {asked, reply};
-  heard_.confirmed += reply.verdict == Reply::Verdict::kConfirmed ? 1 : 0;
-  heard_.contradicted += reply.verdict == Reply::Verdict::kContradicted ? 1 : 0;
-  heard_.unknown += reply.verdict == Reply::Verdict::kUnknown ? 1 : 0;
 }
 
 void SimulatedRobot::hear(const core::Sighting& /*sighting*/) { ++heard_.sightings; }

@@ -55,7 +55,6 @@ class SimulatedRobot final : public ToolMotion {
 
   /// Sends a message to the box; false when kMaxMessages are waiting, and it is not sent.
   bool say(const core::Event& event) { return messages_.try_push_back(event); }
-  bool say(core::EventKind kind);
 
   /// The tool's true place; turns the joints to that instant. An earlier instant than the last is
   /// answered without turning back. Where the arm can't follow, it stays: see stuck().
@@ -85,18 +84,19 @@ class SimulatedRobot final : public ToolMotion {
   static constexpr std::int32_t kMaxMessages = 32;
   /// The robot's end of the line: the next message, or what the box sends.
   [[nodiscard]] std::optional<core::Event> take_message();
-  void hear(const core::Event& asked, const core::Reply& reply);
+  void hear(const core::Reply& reply);
   void hear(const core::Sighting& sighting);
 
   /// What the robot has heard.
   struct Heard {
     std::int64_t replies = 0;
     std::int64_t sightings = 0;
-    std::int64_t confirmed = 0;                                     ///< claims
-    std::int64_t contradicted = 0;                                  ///< claims
-    std::int64_t unknown = 0;                                       ///< claims
-    std::optional<std::pair<core::Event, core::Reply>> last_claim;  ///< with its answer
-    std::optional<core::Reply> last_pose;  ///< answer to a pose request, or the pose itself
+    std::int64_t confirmed = 0;     ///< claims
+    std::int64_t contradicted = 0;  ///< claims
+    std::int64_t unknown = 0;       ///< claims
+    std::optional<core::ClaimReply> last_claim;
+    std::optional<core::PoseRequestReply> last_request;  ///< answer to a pose request
+    std::optional<core::PoseReply> last_pose;            ///< and the pose itself
   };
   [[nodiscard]] const Heard& heard() const { return heard_; }
 

@@ -7,20 +7,17 @@ namespace {
 
 using core::Error;
 using core::Event;
-using core::EventKind;
 using core::Result;
 using core::Unexpected;
 
 /// What a controller may send at all; a real line's decoder refuses the rest.
 bool sound(const Event& event) {
-  switch (event.kind) {
-    case EventKind::kClaim:
-    case EventKind::kStart:
-    case EventKind::kPoseRequest: return true;
-    case EventKind::kLampCommand:
-      return event.lamp_permille >= 0 && event.lamp_permille <= hal::kFullLevel_permille;
-    default: return false;
+  if (const auto* const lamp = core::content_if<core::LampCommand>(event)) {
+    return lamp->permille >= 0 && lamp->permille <= hal::kFullLevel_permille;
   }
+  return core::content_if<core::Claim>(event) != nullptr ||
+         core::content_if<core::Start>(event) != nullptr ||
+         core::content_if<core::PoseRequest>(event) != nullptr;
 }
 
 }  // namespace
@@ -81,10 +78,10 @@ Result<std::optional<Event>> SimulatedRobotLink::poll_event() {
   return std::optional<Event>();
 }
 
-Result<void> SimulatedRobotLink::send_reply(const Event& asked, const core::Reply& reply) {
+Result<void> SimulatedRobotLink::send_reply(const core::Reply& reply) {
   TUBESIGHT_TRY(usable());
   if (fate() == Fate::kArrives) {
-    robot_->hear(asked, reply);
+    robot_->hear(reply);
   }
   return {};
 }

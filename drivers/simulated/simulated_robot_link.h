@@ -28,8 +28,7 @@ class SimulatedRobotLink final : public hal::RobotLink {
   [[nodiscard]] core::Result<void> start() override;
   void stop() override;
   [[nodiscard]] core::Result<std::optional<core::Event>> poll_event() override;
-  [[nodiscard]] core::Result<void> send_reply(const core::Event& asked,
-                                              const core::Reply& reply) override;
+  [[nodiscard]] core::Result<void> send_reply(const core::Reply& reply) override;
   [[nodiscard]] core::Result<void> send_sighting(const core::Sighting& sighting) override;
 
   /// Pulls the plug (false), or puts it in again. What is sent meanwhile is lost.

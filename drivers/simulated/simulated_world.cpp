@@ -152,8 +152,8 @@ void SimulatedWorld::take_events(double time_s, core::EventList& events) {
   const core::StartSettings& start = scenario_->told.start;
   if (!started_ && !start.tubes.empty()) {
     core::Event event;
-    event.kind = core::EventKind::kStart;
-    event.start = start.tubes;
+    event.origin = core::EventOrigin::kOperator;
+    event.content = core::Start{start.tubes, {}, false};
     static_cast<void>(events.try_push_back(event));  // the first of all
   }
   started_ = true;
@@ -189,13 +189,14 @@ bool SimulatedWorld::next_slot(SimulatedField& out) {
   out.faults = faults_at(slot_);
   out.slot = slot_;
   out.lost = out.faults.lost;
-  out.lamp_permille = lamp_permille_;
   out.events.clear();
   out.field.parity = parity_of(slot_);
   out.field.status =
       out.lost || out.faults.damaged ? core::FieldStatus::kDamaged : core::FieldStatus::kGood;
   out.field.sequence = slot_ - unnumbered_;
   out.field.mid_exposure = slot_time(slot_);
+  out.field.number = interlaced_ ? slot_ : 2 * slot_;
+  out.field.lamp_permille = lamp_permille_;
   if (!out.lost) {
     take_events(slot.time_s, out.events);
   }
@@ -277,7 +278,7 @@ FieldTruth SimulatedWorld::look(std::int64_t number, const FieldFaults& faults, 
 void SimulatedWorld::follow_slip(SimulatedField& out) {
   if (!out.lost) {
     const bool anew = std::any_of(out.events.begin(), out.events.end(), [](const core::Event& one) {
-      return one.kind == core::EventKind::kStart;
+      return core::content_if<core::Start>(one) != nullptr;
     });
     for (std::size_t i = 0; i < jump_.size(); ++i) {
       if (anew) {
@@ -356,8 +357,8 @@ void SimulatedWorld::warm_lamp() {
 /// A dimmer that obeys the robot: a level asked for before a field is in force from the next one.
 void SimulatedWorld::follow_lamp_commands(const core::EventList& events) {
   for (const core::Event& event : events) {
-    if (event.kind == core::EventKind::kLampCommand) {
-      lamp_permille_ = event.lamp_permille;
+    if (const auto* const command = core::content_if<core::LampCommand>(event)) {
+      lamp_permille_ = command->permille;
     }
   }
 }

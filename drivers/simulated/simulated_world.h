@@ -37,11 +37,10 @@ struct FieldTruth {
 
 /// One field, what came before it, and what is true of it.
 struct SimulatedField {
-  core::Field field;                  ///< pixels are valid until the next call of the world
-  std::int64_t slot = 0;              ///< counts the camera's fields, lost ones too
-  bool lost = false;                  ///< next_slot() alone: the field is not delivered
-  std::int32_t lamp_permille = 1000;  ///< level commanded while it was exposed
-  core::EventList events;             ///< since the last delivered field
+  core::Field field;       ///< pixels are valid until the next call of the world
+  std::int64_t slot = 0;   ///< counts the camera's fields, lost ones too
+  bool lost = false;       ///< next_slot() alone: the field is not delivered
+  core::EventList events;  ///< since the last delivered field
   FieldFaults faults;
   FieldTruth truth;
 };

@@ -41,8 +41,7 @@ class SessionRun {
   /// False when the settings are refused.
   [[nodiscard]] bool configure(const core::SessionSettings& settings) {
     core::Event start;
-    start.kind = core::EventKind::kStart;
-    start.start = settings.start.tubes;
+    start.content = core::Start{settings.start.tubes, {}, false};
     return session_->configure(settings).has_value() && input_->events.try_push_back(start);
   }
 

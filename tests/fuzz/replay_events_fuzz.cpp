@@ -1,6 +1,7 @@
 // Event files: whatever the text, either rows that keep the promises of ReplayEvents, or messages.
 #include "drivers/replay/replay_events.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -16,12 +17,20 @@ void require(bool holds) {
   }
 }
 
+bool finite(const std::array<double, 2>& at_px) {
+  return std::isfinite(at_px[0]) && std::isfinite(at_px[1]);
+}
+
 void check(const core::Event& event) {
-  require(event.lamp_permille >= 0 && event.lamp_permille <= 1000);
-  require(std::isfinite(event.pick_px[0]) && std::isfinite(event.pick_px[1]));
-  require(event.kind != core::EventKind::kStart || event.start.size() >= 3);
-  for (const core::StartPoint& point : event.start) {
-    require(std::isfinite(point.at_px[0]) && std::isfinite(point.at_px[1]));
+  if (const auto* const lamp = core::content_if<core::LampCommand>(event)) {
+    require(lamp->permille >= 0 && lamp->permille <= 1000);
+  } else if (const auto* const pick = core::content_if<core::Pick>(event)) {
+    require(finite(pick->at_px));
+  } else if (const auto* const start = core::content_if<core::Start>(event)) {
+    require(start->tubes.size() >= 3);
+    for (const core::StartPoint& point : start->tubes) {
+      require(finite(point.at_px));
+    }
   }
 }
 

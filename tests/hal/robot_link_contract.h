@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/robot_link.h"
+#include "tests/support/events.h"
 
 namespace tubesight::support {
 
@@ -12,17 +13,7 @@ namespace tubesight::support {
 template <typename Maker>
 class RobotLinkContract : public testing::Test {
  protected:
-  static core::Event claim_of(core::TubeAddress tube) {
-    core::Event event;
-    event.kind = core::EventKind::kClaim;
-    event.claim = tube;
-    return event;
-  }
-  static core::Event of_kind(core::EventKind kind) {
-    core::Event event;
-    event.kind = kind;
-    return event;
-  }
+  static core::Event claim_of(core::TubeAddress tube) { return tests::event_of(core::Claim{tube}); }
 
   Maker maker_;
   hal::RobotLink& link_ = maker_.link();
@@ -32,7 +23,7 @@ TYPED_TEST_SUITE_P(RobotLinkContract);
 
 TYPED_TEST_P(RobotLinkContract, RefusesAllBeforeStart) {
   const auto polled = this->link_.poll_event();
-  const auto replied = this->link_.send_reply({}, {});
+  const auto replied = this->link_.send_reply({});
   const auto sighted = this->link_.send_sighting({});
 
   ASSERT_FALSE(polled);
@@ -64,16 +55,17 @@ TYPED_TEST_P(RobotLinkContract, NothingHasComeIsNoError) {
 
 TYPED_TEST_P(RobotLinkContract, DeliversMessagesWholeAndInOrder) {
   ASSERT_TRUE(this->link_.start());
-  core::Event lamp = this->of_kind(core::EventKind::kLampCommand);
-  lamp.lamp_permille = 640;
-  core::Event start = this->of_kind(core::EventKind::kStart);
+  core::Start start;
   for (int i = 0; i < core::kMaxStartPoints; ++i) {
-    ASSERT_TRUE(start.start.try_push_back({{i, -i}, {10.5 + i, 20.25}}));
+    ASSERT_TRUE(start.tubes.try_push_back({{i, -i}, {10.5 + i, 20.25}}));
   }
-  this->maker_.say(this->claim_of({-3, 117}));
-  this->maker_.say(lamp);
-  this->maker_.say(start);
-  this->maker_.say(this->of_kind(core::EventKind::kPoseRequest));
+  core::Event claim = this->claim_of({-3, 117});
+  claim.id = 4711;
+  claim.at = core::FieldTime(123'456'789);
+  this->maker_.say(claim);
+  this->maker_.say(tests::event_of(core::LampCommand{640}));
+  this->maker_.say(tests::event_of(start));
+  this->maker_.say(tests::event_of(core::PoseRequest{}));
 
   core::EventList got;
   while (true) {
@@ -86,21 +78,21 @@ TYPED_TEST_P(RobotLinkContract, DeliversMessagesWholeAndInOrder) {
   }
 
   ASSERT_EQ(got.size(), 4);
-  EXPECT_EQ(got[0].kind, core::EventKind::kClaim);
-  EXPECT_EQ(got[0].claim, (core::TubeAddress{-3, 117}));
-  EXPECT_EQ(got[1].kind, core::EventKind::kLampCommand);
-  EXPECT_EQ(got[1].lamp_permille, 640);
-  EXPECT_EQ(got[2].kind, core::EventKind::kStart);
-  ASSERT_EQ(got[2].start.size(), core::kMaxStartPoints);
-  EXPECT_EQ(got[2].start[7].address, (core::TubeAddress{7, -7}));
-  EXPECT_EQ(got[2].start[7].at_px, (std::array<double, 2>{17.5, 20.25}));
-  EXPECT_EQ(got[3].kind, core::EventKind::kPoseRequest);
+  EXPECT_EQ(tests::content_of<core::Claim>(got[0]).tube, (core::TubeAddress{-3, 117}));
+  EXPECT_EQ(got[0].id, 4711);
+  EXPECT_EQ(got[0].at, core::FieldTime(123'456'789));
+  EXPECT_EQ(tests::content_of<core::LampCommand>(got[1]).permille, 640);
+  const auto got_start = tests::content_of<core::Start>(got[2]);
+  ASSERT_EQ(got_start.tubes.size(), core::kMaxStartPoints);
+  EXPECT_EQ(got_start.tubes[7].address, (core::TubeAddress{7, -7}));
+  EXPECT_EQ(got_start.tubes[7].at_px, (std::array<double, 2>{17.5, 20.25}));
+  EXPECT_TRUE(tests::is<core::PoseRequest>(got[3]));
 }
 
 TYPED_TEST_P(RobotLinkContract, RepliesAndSightingsReachTheRobot) {
   ASSERT_TRUE(this->link_.start());
 
-  ASSERT_TRUE(this->link_.send_reply(this->claim_of({1, 2}), {}));
+  ASSERT_TRUE(this->link_.send_reply({}));
   ASSERT_TRUE(this->link_.send_sighting({}));
   ASSERT_TRUE(this->link_.send_sighting({}));
 

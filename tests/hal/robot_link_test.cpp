@@ -42,7 +42,7 @@ TEST(FakeRobotLink, SaysWhenTheRobotIsGoneAndDeliversWhenItIsBack) {
   const auto gone = fake.poll_event();
   ASSERT_FALSE(gone);
   EXPECT_EQ(gone.error(), core::Error::kDisconnected);
-  EXPECT_FALSE(fake.send_reply({}, {}));
+  EXPECT_FALSE(fake.send_reply({}));
   EXPECT_FALSE(fake.send_sighting({}));
   fake.connect(true);
   const auto back = fake.poll_event();
@@ -55,8 +55,8 @@ TEST(FakeRobotLink, ASlowLineRefusesRepliesAndLeavesOutSightings) {
   ASSERT_TRUE(fake.start());
   fake.limit_replies(1);
 
-  EXPECT_TRUE(fake.send_reply({}, {}));
-  const auto full = fake.send_reply({}, {});
+  EXPECT_TRUE(fake.send_reply({}));
+  const auto full = fake.send_reply({});
   ASSERT_FALSE(full);
   EXPECT_EQ(full.error(), core::Error::kBufferTooSmall);
   EXPECT_TRUE(fake.send_sighting({}));

@@ -26,8 +26,7 @@ class FakeRobotLink final : public hal::RobotLink {
     start_fails_ = true;
   }
 
-  using Answer = std::pair<core::Event, core::Reply>;
-  [[nodiscard]] const std::vector<Answer>& replies() const { return replies_; }
+  [[nodiscard]] const std::vector<core::Reply>& replies() const { return replies_; }
   [[nodiscard]] const std::vector<core::Sighting>& sightings() const { return sightings_; }
 
   core::Result<void> start() override {
@@ -62,13 +61,13 @@ class FakeRobotLink final : public hal::RobotLink {
     return std::optional<core::Event>(arrival.event);
   }
 
-  core::Result<void> send_reply(const core::Event& asked, const core::Reply& reply) override {
+  core::Result<void> send_reply(const core::Reply& reply) override {
     TUBESIGHT_TRY(usable());
     if (room_ == 0) {
       return core::Unexpected(core::Error::kBufferTooSmall);
     }
     room_ -= room_ > 0 ? 1 : 0;
-    replies_.emplace_back(asked, reply);
+    replies_.push_back(reply);
     return {};
   }
 
@@ -97,7 +96,7 @@ class FakeRobotLink final : public hal::RobotLink {
   }
 
   std::deque<Arrival> arrived_;
-  std::vector<Answer> replies_;
+  std::vector<core::Reply> replies_;
   std::vector<core::Sighting> sightings_;
   core::Error start_error_ = core::Error::kIo;
   bool start_fails_ = false;

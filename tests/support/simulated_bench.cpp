@@ -11,9 +11,6 @@
 namespace tubesight::tests {
 namespace {
 
-using core::Event;
-using core::EventKind;
-
 constexpr double kFieldsASecond = 60.0;
 
 /// Clicks on the tube-end nearest to the optimum point and on two beside it, where they truly are.
@@ -134,17 +131,14 @@ void SimulatedBench::take_messages(core::EventList& events) {
   }
 }
 
-void SimulatedBench::send(const core::EventList& events) {
-  for (std::int32_t i = 0; i < output_->replies.size(); ++i) {
-    const core::Event& event = events[i];
-    if (event.kind == EventKind::kPoseRequest) {
-      pose_asked_ = event;
-    }
-    const bool result = event.kind == EventKind::kPoseResult;
+void SimulatedBench::send() {
+  for (const core::Reply& reply : output_->replies) {
     // A line that is gone loses the answer, and the robot asks again.
-    static_cast<void>(link_->send_reply(result ? pose_asked_ : event, output_->replies[i]));
-    if (event.kind == EventKind::kLampCommand) {
-      EXPECT_TRUE(dimmer_->set_level(event.lamp_permille));
+    static_cast<void>(link_->send_reply(reply));
+  }
+  for (const core::Event& event : input_->events) {
+    if (const auto* const command = core::content_if<core::LampCommand>(event)) {
+      EXPECT_TRUE(dimmer_->set_level(command->permille));
     }
   }
   static_cast<void>(link_->send_sighting(output_->sighting));
@@ -154,7 +148,6 @@ void SimulatedBench::step() {
   auto lease = grabber_->grab_for(std::chrono::milliseconds(0));
   ASSERT_TRUE(lease) << "the recording is too short";
   input_->field = lease->field();
-  input_->lamp_permille = dimmer_->level_permille();
   input_->events = grabber_->last().events;
   if (const auto result = poses_.take_result()) {
     ASSERT_TRUE(input_->events.try_push_back(*result));
@@ -162,7 +155,7 @@ void SimulatedBench::step() {
   take_messages(input_->events);
   session_->step(*input_, *output_);
   poses_.take(input_->field, fields_, output_->order);
-  send(input_->events);
+  send();
   const auto& axis = grabber_->last().truth.axis.nearest;
   wrong_ += sighting().aligned && sighting().tool != axis.address ? 1 : 0;
   ++fields_;

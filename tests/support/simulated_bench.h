@@ -65,7 +65,7 @@ class SimulatedBench {
  private:
   void step();
   void take_messages(core::EventList& events);
-  void send(const core::EventList& events);
+  void send();
 
   std::unique_ptr<drivers::SimulatedWorld> world_;
   std::unique_ptr<drivers::SimulatedRobot> robot_;
@@ -76,7 +76,6 @@ class SimulatedBench {
   std::unique_ptr<core::session::Input> input_;
   std::unique_ptr<core::session::Output> output_;
   board::PoseService poses_;
-  core::Event pose_asked_{};
   std::int64_t fields_ = 0;
   std::int64_t garbled_ = 0;
   std::int64_t disconnected_ = 0;

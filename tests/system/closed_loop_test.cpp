@@ -9,13 +9,14 @@
 
 #include "core/base/transform.h"
 #include "core/kinematics/arm_errors.h"
+#include "tests/support/events.h"
 #include "tests/support/simulated_bench.h"
 
 namespace tubesight::tests {
 namespace {
 
 using core::TubeAddress;
-using Verdict = core::Reply::Verdict;
+using Verdict = core::ClaimVerdict;
 
 class ClosedLoop : public testing::Test {
  protected:
@@ -93,10 +94,7 @@ TEST_F(ClosedLoop, TheBoxSeesALampFailThatItsDimmerDoesNot) {
 TEST_F(ClosedLoop, ALampCommandOfTheRobotReachesTheLamp) {
   bench().start();
   bench().run(0.1);
-  core::Event command;
-  command.kind = core::EventKind::kLampCommand;
-  command.lamp_permille = 700;
-  ASSERT_TRUE(bench().robot().say(command));
+  ASSERT_TRUE(bench().robot().say(event_of(core::LampCommand{700})));
   const double before = bench().grey();
 
   bench().run(0.1);
@@ -114,8 +112,8 @@ TEST_F(ClosedLoop, ACalibratedRobotsClaimsAreConfirmed) {
   bench().run_to_rest();
 
   ASSERT_TRUE(bench().robot().heard().last_claim);
-  const auto& [asked, reply] = *bench().robot().heard().last_claim;
-  EXPECT_EQ(asked.claim, (TubeAddress{44, 65}));
+  const core::ClaimReply& reply = *bench().robot().heard().last_claim;
+  EXPECT_EQ(reply.claimed, (TubeAddress{44, 65}));
   EXPECT_EQ(reply.verdict, Verdict::kConfirmed);
   EXPECT_EQ(reply.tube, (TubeAddress{44, 65}));
   EXPECT_EQ(bench().truth().axis.nearest.address, (TubeAddress{44, 65}));
@@ -133,8 +131,8 @@ TEST_F(ClosedLoop, ARobotOffByAPitchIsToldItsTrueTube) {
   bench().run_to_rest();
 
   ASSERT_TRUE(bench().robot().heard().last_claim);
-  const auto& [asked, reply] = *bench().robot().heard().last_claim;
-  EXPECT_EQ(asked.claim, (TubeAddress{42, 63}));
+  const core::ClaimReply& reply = *bench().robot().heard().last_claim;
+  EXPECT_EQ(reply.claimed, (TubeAddress{42, 63}));
   EXPECT_EQ(reply.verdict, Verdict::kContradicted);
   EXPECT_EQ(reply.tube, (TubeAddress{42, 64}));
   EXPECT_EQ(bench().truth().axis.nearest.address, (TubeAddress{42, 64}));
@@ -149,7 +147,7 @@ TEST_F(ClosedLoop, BetweenTubesTheBoxVouchesForNone) {
   bench().run(1.0);
 
   ASSERT_TRUE(bench().robot().heard().last_claim);
-  EXPECT_EQ(bench().robot().heard().last_claim->second.verdict, Verdict::kUnknown);
+  EXPECT_EQ(bench().robot().heard().last_claim->verdict, Verdict::kUnknown);
   EXPECT_EQ(bench().sighting().tool, (TubeAddress{40, 61}));
   EXPECT_EQ(bench().robot().believed_tube(), (TubeAddress{40, 60}));
 }
@@ -160,12 +158,11 @@ TEST_F(ClosedLoop, APoseRequestCorrectsTheRobotWhoseClaimIsThenRight) {
   bench().robot_settings.errors.base.position_mm[0] += 24.6;
   bench().start();
   bench().run(0.6);
-  ASSERT_TRUE(bench().robot().say(core::EventKind::kPoseRequest));
+  ASSERT_TRUE(bench().robot().say(event_of(core::PoseRequest{})));
   bench().run(1.5);
   ASSERT_TRUE(bench().robot().heard().last_pose);
-  ASSERT_EQ(bench().robot().heard().last_pose->kind, core::EventKind::kPoseResult);
   ASSERT_EQ(bench().robot().heard().last_pose->pose.reason, core::PoseReason::kNone);
-  EXPECT_EQ(bench().robot().heard().last_pose->verdict, Verdict::kConfirmed);
+  EXPECT_EQ(bench().robot().heard().last_pose->verdict, core::PoseVerdict::kConfirmed);
   const auto seen = heard_pose();
   EXPECT_LT((seen.translation_mm() - bench().truth().T_sheet_tool.translation_mm()).norm(), 0.05);
 
@@ -173,8 +170,8 @@ TEST_F(ClosedLoop, APoseRequestCorrectsTheRobotWhoseClaimIsThenRight) {
   ASSERT_TRUE(bench().robot().move_to({42, 62}));
   bench().run_to_rest();
 
-  const auto& [asked, reply] = *bench().robot().heard().last_claim;
-  EXPECT_EQ(asked.claim, (TubeAddress{42, 62}));
+  const core::ClaimReply& reply = *bench().robot().heard().last_claim;
+  EXPECT_EQ(reply.claimed, (TubeAddress{42, 62}));
   EXPECT_EQ(reply.verdict, Verdict::kConfirmed);
   EXPECT_EQ(bench().truth().axis.nearest.address, (TubeAddress{42, 62}));
   // Off by backlash and what the links' errors change within two pitches; before it was 24.6 mm.
@@ -191,8 +188,8 @@ TEST_F(ClosedLoop, ANoisyLineLosesMessagesButShiftsNoAnswer) {
     bench().run_to_rest();
     const auto& last = bench().robot().heard().last_claim;
     ASSERT_TRUE(last);
-    EXPECT_EQ(last->first.claim, tube);
-    EXPECT_EQ(last->second.tube, (TubeAddress{tube.row, tube.column + 1}));
+    EXPECT_EQ(last->claimed, tube);
+    EXPECT_EQ(last->tube, (TubeAddress{tube.row, tube.column + 1}));
   }
 
   EXPECT_GT(bench().garbled(), 0);

@@ -42,11 +42,11 @@ void judge_field(const drivers::SimulatedField& field, const core::Sighting& sig
 }
 
 void judge_replies(const core::session::Output& output, ScenarioVerdict& verdict) {
-  for (const core::session::Reply& reply : output.replies) {
-    if (reply.kind == core::EventKind::kClaim) {
+  for (const core::Reply& reply : output.replies) {
+    if (const auto* const claim = core::content_if<core::ClaimReply>(reply)) {
       ++verdict.claims;
-      verdict.contradicted += reply.verdict == core::session::Reply::Verdict::kContradicted ? 1 : 0;
-      verdict.confirmed += reply.verdict == core::session::Reply::Verdict::kConfirmed ? 1 : 0;
+      verdict.contradicted += claim->verdict == core::ClaimVerdict::kContradicted ? 1 : 0;
+      verdict.confirmed += claim->verdict == core::ClaimVerdict::kConfirmed ? 1 : 0;
     }
   }
 }
@@ -91,7 +91,6 @@ ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
   drivers::SimulatedField field;
   while (world->next(field)) {
     input->field = field.field;
-    input->lamp_permille = field.lamp_permille;
     input->events = field.events;
     session->step(*input, *output);
     const core::Sighting& sighting = output->sighting;

@@ -43,8 +43,7 @@ TYPED_TEST(SessionHeap, IsNotTouchedByAStep) {
   const auto output = std::make_unique<Output>();
   ASSERT_TRUE(session->configure(file->settings));
   core::Event start;
-  start.kind = core::EventKind::kStart;
-  start.start = file->settings.start.tubes;
+  start.content = core::Start{file->settings.start.tubes, {}, false};
   ASSERT_TRUE(input->events.try_push_back(start));
   core::Event claim;  // one to answer in every field, right or wrong
 

@@ -62,7 +62,6 @@ MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& 
   SimulatedField field;
   while (!judge.over() && world_->next(field)) {
     input_->field = field.field;
-    input_->lamp_permille = field.lamp_permille;
     input_->events = field.events;
     session->step(*input_, *output_);
     digest.add(output_->sighting);

@@ -50,45 +50,46 @@ void append_pose_result(std::string& out, const core::PoseResult& pose) {
   append(pose.offset_nm, 6, kMillimetre_nm);
 }
 
+void append_places(std::string& out, const std::array<double, 2>& at_px) {
+  append_scaled(out, at_px[0], 3);
+  out += ',';
+  append_scaled(out, at_px[1], 3);
+}
+
+void append_clicks(std::string& out, const core::Start& start) {
+  for (std::int32_t i = 0; i < start.tubes.size(); ++i) {
+    out += i > 0 ? ";" : "";
+    append_address(out, start.tubes[i].address);
+    out += ',';
+    append_places(out, start.tubes[i].at_px);
+  }
+}
+
 /// The columns `kind,values`.
 void append_kind_and_values(std::string& out, const core::Event& event) {
-  switch (event.kind) {
-    case core::EventKind::kClaim:
-      out += "claim,\"";
-      append_address(out, event.claim);
-      out += '"';
-      break;
-    case core::EventKind::kStart:
-      out += "start,\"";
-      for (std::int32_t i = 0; i < event.start.size(); ++i) {
-        out += i > 0 ? ";" : "";
-        append_address(out, event.start[i].address);
-        for (const double place : event.start[i].at_px) {
-          out += ',';
-          append_scaled(out, place, 3);
-        }
-      }
-      out += '"';
-      break;
-    case core::EventKind::kLampCommand:
-      out += "lamp,";
-      drivers::append_whole(out, event.lamp_permille);
-      break;
-    case core::EventKind::kPoseRequest: out += "pose,"; break;
-    case core::EventKind::kPick:
-      out += "pick,\"";
-      append_scaled(out, event.pick_px[0], 3);
-      out += ',';
-      append_scaled(out, event.pick_px[1], 3);
-      out += '"';
-      break;
-    case core::EventKind::kAcknowledge: out += "acknowledge,"; break;
-    case core::EventKind::kPoseResult:
-      out += "pose-result,\"";
-      append_pose_result(out, event.pose);
-      out += '"';
-      break;
-  }
+  const auto quoted = [&out](const char* kind, const auto& append) {
+    out += kind;
+    out += ",\"";
+    append();
+    out += '"';
+  };
+  std::visit(
+      core::Overloaded{
+          [&](const core::Claim& claim) {
+            quoted("claim", [&] { append_address(out, claim.tube); });
+          },
+          [&](const core::Start& start) { quoted("start", [&] { append_clicks(out, start); }); },
+          [&](const core::LampCommand& lamp) {
+            out += "lamp,";
+            drivers::append_whole(out, lamp.permille);
+          },
+          [&](const core::PoseRequest&) { out += "pose,"; },
+          [&](const core::Pick& pick) { quoted("pick", [&] { append_places(out, pick.at_px); }); },
+          [&](const core::Acknowledge&) { out += "acknowledge,"; },
+          [&](const core::PoseResult& pose) {
+            quoted("pose-result", [&] { append_pose_result(out, pose); });
+          }},
+      event.content);
 }
 
 }  // namespace
@@ -103,15 +104,14 @@ void append_event_row(std::string& out, std::int64_t field, core::FieldTime time
   out += '\n';
 }
 
-void append_meta_row(std::string& out, std::int64_t number, const core::Field& field,
-                     std::int32_t lamp_permille) {
-  drivers::append_whole(out, number);
+void append_meta_row(std::string& out, const core::Field& field) {
+  drivers::append_whole(out, field.number);
   out += ',';
   drivers::append_whole(out, field.sequence);
   out += ',';
   drivers::append_decimal(out, field.mid_exposure.count(), kSecond_ns, 9);
   out += field.status == core::FieldStatus::kGood ? ",good," : ",damaged,";
-  drivers::append_whole(out, lamp_permille);
+  drivers::append_whole(out, field.lamp_permille);
   out += '\n';
 }
 

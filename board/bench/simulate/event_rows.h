@@ -20,7 +20,6 @@ void append_event_row(std::string& out, std::int64_t field, core::FieldTime time
                       const core::Event& event);
 
 /// Appends the row of a field.
-void append_meta_row(std::string& out, std::int64_t number, const core::Field& field,
-                     std::int32_t lamp_permille);
+void append_meta_row(std::string& out, const core::Field& field);
 
 }  // namespace tubesight::board

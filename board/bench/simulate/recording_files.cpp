@@ -109,9 +109,11 @@ void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
                               bool centers) {
   const FieldPlace place{frames_, index};
   const std::int64_t number = 2 * frames_ + index;
-  append_meta_row(rows_[kMeta], number, field.field, field.lamp_permille);
+  core::Field delivered = field.field;
+  delivered.number = number;  // lost frames are not in the recording
+  append_meta_row(rows_[kMeta], delivered);
   for (const core::Event& event : field.events) {
-    if (!start_passed_ && event.kind == core::EventKind::kStart) {
+    if (!start_passed_ && core::content_if<core::Start>(event) != nullptr) {
       start_passed_ = true;  // replay makes it of the session's [start]
       continue;
     }

@@ -137,7 +137,7 @@ void check_events(const Scenario& scenario, const SimulatedWorld& world,
   const bool cut = world.path().duration_s() > seconds(world.slot_time(world.slots()));
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {
     const drivers::ScenarioEvent& told = scenario.events[i];
-    if (told.at_s <= last_s || told.event.kind == core::EventKind::kStart ||
+    if (told.at_s <= last_s || core::content_if<core::Start>(told.event) != nullptr ||
         (cut && places[i].of_path && told.at_s > end_s)) {
       continue;
     }

@@ -10,15 +10,12 @@
 namespace tubesight::board {
 namespace {
 
-using core::EventKind;
 using drivers::TableReader;
 
 // Those that reach the box from outside, by the words of an event file; in the enumerators' order.
 constexpr std::array<std::string_view, 6> kWords = {"claim", "start", "lamp",
                                                     "pose",  "pick",  "acknowledge"};
-constexpr std::array<EventKind, 6> kKinds = {EventKind::kClaim,       EventKind::kStart,
-                                             EventKind::kLampCommand, EventKind::kPoseRequest,
-                                             EventKind::kPick,        EventKind::kAcknowledge};
+enum Kind : std::size_t { kClaim, kStart, kLamp, kPose, kPick, kAcknowledge };
 
 void read_event(TableReader& table, const core::SessionSettings& told, double length_s,
                 ScenarioEvents& to) {
@@ -35,24 +32,47 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
     return;
   }
   core::Event& event = told_event.event;
-  event.kind = kKinds[kind];
-  if (event.kind == EventKind::kClaim) {
-    // A robot may claim what is not there; that is what the box is asked for.
-    table.address("tube", event.claim);
-  } else if (event.kind == EventKind::kLampCommand) {
-    table.whole("lamp_permille", {0, 1000}, event.lamp_permille);
-  } else if (event.kind == EventKind::kPick) {
-    if (table.numbers("at_px", {0.0, 4096.0, " px"}, event.pick_px) &&
-        !drivers::in_picture(told.camera, event.pick_px)) {
-      table.complain("at_px",
-                     drivers::point_text(event.pick_px) + ", expected a place in the picture");
+  switch (kind) {
+    case kClaim: {
+      // A robot may claim what is not there; that is what the box is asked for.
+      core::Claim claim;
+      table.address("tube", claim.tube);
+      event.content = claim;
+      break;
     }
-  } else if (event.kind == EventKind::kStart) {
-    ClickWish wish;
-    wish.at_s = told_event.at_s;
-    wish.event = static_cast<std::ptrdiff_t>(to.events->size());
-    read_click_wish(table, told.tubesheet, wish);
-    to.wishes->push_back(wish);
+    case kLamp: {
+      core::LampCommand lamp;
+      table.whole("lamp_permille", {0, 1000}, lamp.permille);
+      event.content = lamp;
+      break;
+    }
+    case kPick: {
+      core::Pick pick;
+      if (table.numbers("at_px", {0.0, 4096.0, " px"}, pick.at_px) &&
+          !drivers::in_picture(told.camera, pick.at_px)) {
+        table.complain("at_px",
+                       drivers::point_text(pick.at_px) + ", expected a place in the picture");
+      }
+      event.origin = core::EventOrigin::kOperator;
+      event.content = pick;
+      break;
+    }
+    case kStart: {
+      ClickWish wish;
+      wish.at_s = told_event.at_s;
+      wish.event = static_cast<std::ptrdiff_t>(to.events->size());
+      read_click_wish(table, told.tubesheet, wish);
+      to.wishes->push_back(wish);
+      event.origin = core::EventOrigin::kOperator;
+      event.content = core::Start{};
+      break;
+    }
+    case kPose: event.content = core::PoseRequest{}; break;
+    case kAcknowledge:
+      event.origin = core::EventOrigin::kOperator;
+      event.content = core::Acknowledge{};
+      break;
+    default: break;
   }
   to.events->push_back(told_event);
   to.places->push_back({table.name() + ".at_s", table.place_of("at_s")});

@@ -293,9 +293,12 @@ void ScenarioReading::play() {
     return;
   }
   for (const ClickWish& wish : wishes_) {
-    auto& clicks = wish.event < 0 ? to_->told.start.tubes
-                                  : to_->events[static_cast<std::size_t>(wish.event)].event.start;
-    const std::string wrong = make_clicks(wish, *to_, *world, clicks);
+    auto* clicks = &to_->told.start.tubes;
+    if (wish.event >= 0) {
+      auto& event = to_->events[static_cast<std::size_t>(wish.event)].event;
+      clicks = &core::content_if<core::Start>(event)->tubes;
+    }
+    const std::string wrong = make_clicks(wish, *to_, *world, *clicks);
     if (!wrong.empty()) {
       complain(wish.place, wish.name + ": " + wrong);
     }

@@ -325,8 +325,7 @@ void PathReader::claim(const TableReader& table, std::string_view key, TubeAddre
                        double at_s) {
   drivers::ScenarioEvent told;
   told.at_s = at_s;
-  told.event.kind = core::EventKind::kClaim;
-  told.event.claim = tube;
+  told.event.content = core::Claim{tube};
   scenario_->events.push_back(told);
   claims_.push_back({table.name() + "." + std::string(key), table.place_of(key), true});
 }

@@ -105,7 +105,7 @@ void append_truth_row(std::string& out, const FieldPlace& place,
   const bool aligned = truth.axis_known && nearest.kind != TubeEndKind::kVoid &&
                        nearest.offset_mm <= aligned_within_mm;
   append_number(out, std::int64_t{aligned});
-  append_number(out, std::int64_t{field.lamp_permille});
+  append_number(out, std::int64_t{field.field.lamp_permille});
   out += fault_words(field.faults);
   out += truth.slip != std::array<std::int32_t, 2>{} ? ",1\n" : ",0\n";
 }

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/events.h"
+
 namespace tubesight::board {
 namespace {
 
-using core::EventKind;
 using core::EventList;
 
 core::StartSettings start_of_rows(std::int32_t count) {
@@ -37,9 +38,9 @@ TEST(EventFeed, HandsTheSettingsStartBeforeTheFirstFieldOnly) {
   feed.take_before(0, none, events);
 
   ASSERT_EQ(events.size(), 1);
-  EXPECT_EQ(events[0].kind, EventKind::kStart);
-  ASSERT_EQ(events[0].start.size(), 3);
-  EXPECT_EQ(events[0].start[2].address, (core::TubeAddress{2, 7}));
+  const auto start = tests::content_of<core::Start>(events[0]);
+  ASSERT_EQ(start.tubes.size(), 3);
+  EXPECT_EQ(start.tubes[2].address, (core::TubeAddress{2, 7}));
   feed.take_before(1, none, events);
   EXPECT_TRUE(events.empty());
 }
@@ -52,9 +53,9 @@ TEST(EventFeed, HandsRecordedEventsAfterTheStart) {
   feed.take_before(0, recorded, events);
 
   ASSERT_EQ(events.size(), 3);
-  EXPECT_EQ(events[0].kind, EventKind::kStart);
-  EXPECT_EQ(events[1].claim.row, 0);
-  EXPECT_EQ(events[2].claim.row, 1);
+  EXPECT_TRUE(tests::is<core::Start>(events[0]));
+  EXPECT_EQ(tests::content_of<core::Claim>(events[1]).tube.row, 0);
+  EXPECT_EQ(tests::content_of<core::Claim>(events[2]).tube.row, 1);
 }
 
 TEST(EventFeed, HandsWhatDoesNotFitBeforeTheNextField) {
@@ -65,11 +66,11 @@ TEST(EventFeed, HandsWhatDoesNotFitBeforeTheNextField) {
   feed.take_before(0, recorded, events);
 
   EXPECT_EQ(events.size(), 16);
-  EXPECT_EQ(events[15].claim.row, 14);
+  EXPECT_EQ(tests::content_of<core::Claim>(events[15]).tube.row, 14);
   EXPECT_EQ(feed.left(), 1U);
   feed.take_before(1, recorded, events);
   ASSERT_EQ(events.size(), 1);
-  EXPECT_EQ(events[0].claim.row, 15);
+  EXPECT_EQ(tests::content_of<core::Claim>(events[0]).tube.row, 15);
   EXPECT_EQ(feed.left(), 0U);
 }
 

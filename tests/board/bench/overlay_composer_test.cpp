@@ -36,8 +36,7 @@ class OverlayComposerTest : public ::testing::Test {
     const auto lease = grabber_->grab_for(std::chrono::milliseconds(0));
     ASSERT_TRUE(lease.has_value());
     core::Event start;
-    start.kind = core::EventKind::kStart;
-    start.start = file_->settings.start.tubes;
+    start.content = core::Start{file_->settings.start.tubes, {}, false};
     core::session::Input input;
     ASSERT_TRUE(input.events.try_push_back(start));
     input.field = lease->field();

@@ -7,13 +7,11 @@
 namespace tubesight::board {
 namespace {
 
-using core::EventKind;
-using core::EventList;
+using core::ClaimVerdict;
 using core::FieldTime;
 using core::Reason;
 using core::TrackState;
 using core::session::Output;
-using core::session::Reply;
 using std::chrono::milliseconds;
 
 /// Feeds a statistics object field by field.
@@ -26,25 +24,28 @@ class ReplayStatisticsTest : public ::testing::Test {
     output_->sighting.state = state;
     output_->sighting.reason = reason;
     output_->sighting.tracked = tracked;
-    statistics_.add(events_, *output_);
-    events_.clear();
+    statistics_.add(*output_);
     output_->replies.clear();
     output_->tubes.clear();
   }
 
-  /// An event before the next field and its answer.
-  void event(EventKind kind, Reply::Verdict verdict, core::TubeAddress claimed = {},
-             core::TubeAddress seen = {},
-             core::tracking::StartRefusal refusal = core::tracking::StartRefusal::kNone) {
-    core::Event asked;
-    asked.kind = kind;
-    asked.claim = claimed;
-    ASSERT_TRUE(events_.try_push_back(asked));
-    ASSERT_TRUE(output_->replies.try_push_back({kind, verdict, seen, refusal}));
+  /// An answer that is given with the next field, at 20 ms.
+  template <typename Content>
+  void answer(const Content& content) {
+    core::Reply reply;
+    reply.at = milliseconds(20);
+    reply.content = content;
+    ASSERT_TRUE(output_->replies.try_push_back(reply));
+  }
+  void answer_claim(ClaimVerdict verdict, core::TubeAddress claimed, core::TubeAddress seen = {}) {
+    core::ClaimReply reply;
+    reply.claimed = claimed;
+    reply.verdict = verdict;
+    reply.tube = seen;
+    answer(reply);
   }
 
   ReplayStatistics statistics_;
-  EventList events_;
   std::unique_ptr<Output> output_ = std::make_unique<Output>();
 };
 
@@ -111,7 +112,7 @@ TEST_F(ReplayStatisticsTest, FindTheLargestSpeedWhileTracking) {
     output_->sighting.state = state;
     output_->sighting.velocity_known = true;
     output_->sighting.velocity_um_s = {x, y};
-    statistics_.add(events_, *output_);
+    statistics_.add(*output_);
   };
   moving(0, TrackState::kTracking, 30000, -40000);
   moving(20, TrackState::kTracking, 1000, 0);
@@ -139,19 +140,18 @@ TEST_F(ReplayStatisticsTest, SumTubesAndNameEachPlugOnce) {
 }
 
 TEST_F(ReplayStatisticsTest, CountTheAnswersOfEachKind) {
-  event(EventKind::kStart, Reply::Verdict::kRefused, {}, {},
-        core::tracking::StartRefusal::kAddresses);
-  event(EventKind::kStart, Reply::Verdict::kTaken);
-  event(EventKind::kClaim, Reply::Verdict::kConfirmed, {1, 2}, {1, 2});
-  event(EventKind::kClaim, Reply::Verdict::kContradicted, {1, 2}, {1, 3});
-  event(EventKind::kClaim, Reply::Verdict::kUnknown, {1, 2});
-  event(EventKind::kClaim, Reply::Verdict::kUnknown, {1, 2});
-  event(EventKind::kPick, Reply::Verdict::kConfirmed, {}, {1, 2});
-  event(EventKind::kPick, Reply::Verdict::kUnknown);
-  event(EventKind::kLampCommand, Reply::Verdict::kNotServed);
-  event(EventKind::kPoseRequest, Reply::Verdict::kTaken);
-  event(EventKind::kPoseRequest, Reply::Verdict::kRefused);
-  event(EventKind::kPoseResult, Reply::Verdict::kContradicted, {}, {1, 2});
+  answer(core::StartReply{core::tracking::StartRefusal::kAddresses});
+  answer(core::StartReply{});
+  answer_claim(ClaimVerdict::kConfirmed, {1, 2}, {1, 2});
+  answer_claim(ClaimVerdict::kContradicted, {1, 2}, {1, 3});
+  answer_claim(ClaimVerdict::kUnknown, {1, 2});
+  answer_claim(ClaimVerdict::kUnknown, {1, 2});
+  answer(core::PickReply{core::PickDoubt::kNone, {1, 2}});
+  answer(core::PickReply{core::PickDoubt::kNoTube, {}});
+  answer(core::NotServedReply{});
+  answer(core::PoseRequestReply{});
+  answer(core::PoseRequestReply{core::PoseReason::kBusy});
+  answer(core::PoseReply{core::PoseVerdict::kContradicted, {1, 2}, {}});
   field(20, TrackState::kTracking);
   statistics_.finish();
 

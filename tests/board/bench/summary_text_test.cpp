@@ -30,36 +30,33 @@ core::Sighting aligned(int time_ms, core::TubeAddress tube) {
 TEST(SummaryText, TellsAReplay) {
   ReplayStatistics statistics;
   const auto output = std::make_unique<core::session::Output>();
-  core::EventList events;
-  core::Event event;
-  event.kind = core::EventKind::kStart;
-  ASSERT_TRUE(events.try_push_back(event));
-  ASSERT_TRUE(output->replies.try_push_back(
-      {core::EventKind::kStart, core::session::Reply::Verdict::kTaken, {}, {}}));
+  core::Reply reply;
+  reply.content = core::StartReply{};
+  ASSERT_TRUE(output->replies.try_push_back(reply));
   output->sighting = aligned(0, {40, 60});
-  statistics.add(events, *output);
-  events.clear();
+  statistics.add(*output);
   output->replies.clear();
-  event.kind = core::EventKind::kClaim;
-  event.claim = {40, 61};
-  ASSERT_TRUE(events.try_push_back(event));
-  ASSERT_TRUE(output->replies.try_push_back(
-      {core::EventKind::kClaim, core::session::Reply::Verdict::kContradicted, {40, 60}, {}}));
+  core::ClaimReply claim;
+  claim.claimed = {40, 61};
+  claim.verdict = core::ClaimVerdict::kContradicted;
+  claim.tube = {40, 60};
+  reply.at = milliseconds(300);
+  reply.content = claim;
+  ASSERT_TRUE(output->replies.try_push_back(reply));
   core::TubeSighting plug;
   plug.address = {41, -3};
   plug.plug = true;
   ASSERT_TRUE(output->tubes.try_push_back(plug));
   output->sighting = aligned(300, {40, 60});
-  statistics.add(events, *output);
-  events.clear();
+  statistics.add(*output);
   output->replies.clear();
   output->sighting = aligned(600, {40, 61});
-  statistics.add(events, *output);
+  statistics.add(*output);
   output->sighting = {};
   output->sighting.time = milliseconds(700);
   output->sighting.state = TrackState::kLost;
   output->sighting.reason = Reason::kJump;
-  statistics.add(events, *output);
+  statistics.add(*output);
   statistics.finish();
 
   const std::string text = summary_text({"r.y4m", 635, 480, true, false}, statistics);
@@ -89,7 +86,7 @@ TEST(SummaryText, NamesTwentyTubesPassedAtMost) {
   const auto output = std::make_unique<core::session::Output>();
   for (int i = 0; i < 21; ++i) {
     output->sighting = aligned(20 * i, {7, i});
-    statistics.add({}, *output);
+    statistics.add(*output);
   }
   statistics.finish();
 
@@ -103,15 +100,10 @@ TEST(SummaryText, NamesTwentyTubesPassedAtMost) {
 TEST(SummaryText, TellsWhyAStartWasRefused) {
   ReplayStatistics statistics;
   const auto output = std::make_unique<core::session::Output>();
-  core::EventList events;
-  core::Event event;
-  event.kind = core::EventKind::kStart;
-  ASSERT_TRUE(events.try_push_back(event));
-  ASSERT_TRUE(output->replies.try_push_back({core::EventKind::kStart,
-                                             core::session::Reply::Verdict::kRefused,
-                                             {},
-                                             core::tracking::StartRefusal::kNoTubeThere}));
-  statistics.add(events, *output);
+  core::Reply reply;
+  reply.content = core::StartReply{core::tracking::StartRefusal::kNoTubeThere};
+  ASSERT_TRUE(output->replies.try_push_back(reply));
+  statistics.add(*output);
   statistics.finish();
 
   const std::string text = summary_text({"r.y4m", 64, 64, false, true}, statistics);

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/drawn_sheet.h"
+#include "tests/support/events.h"
 
 namespace tubesight::core::rendering {
 namespace {
@@ -46,16 +47,15 @@ class DrawnSession : public ::testing::Test {
     const auto axis = sheet_.truth().axis(pose(0.0));
     ASSERT_TRUE(axis.has_value());
     const TubeAddress under = axis->nearest.address;
-    Event event;
-    event.kind = EventKind::kStart;
+    Start start;
     for (const TubeAddress& tube : {under, TubeAddress{under.row + 1, under.column},
                                     TubeAddress{under.row, under.column + 1}}) {
       const auto at =
           sheet_.truth().image_of(pose(0.0), sheet_.truth().tube_ends().at(tube).center_mm);
       ASSERT_TRUE(at.has_value());
-      ASSERT_TRUE(event.start.try_push_back({tube, {(*at)[0] + 4.0, (*at)[1] - 3.0}}));
+      ASSERT_TRUE(start.tubes.try_push_back({tube, {(*at)[0] + 4.0, (*at)[1] - 3.0}}));
     }
-    ASSERT_TRUE(input_.events.try_push_back(event));
+    ASSERT_TRUE(input_.events.try_push_back(tests::event_of(start)));
   }
 
   void run(int fields) {

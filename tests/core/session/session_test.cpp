@@ -7,31 +7,27 @@
 namespace tubesight::core::session {
 namespace {
 
-using Verdict = Reply::Verdict;
+using tests::content_of;
 using tracking::StartRefusal;
 
-Event pose_request() {
-  Event event;
-  event.kind = EventKind::kPoseRequest;
-  return event;
-}
+Event pose_request() { return tests::event_of(PoseRequest{}); }
 
 Event pose_result(TubeAddress nearest) {
-  Event event;
-  event.kind = EventKind::kPoseResult;
-  event.pose.reason = PoseReason::kNone;
-  event.pose.position_nm = {254'000'000, 508'000'000, -60'000'000};
-  event.pose.nearest = nearest;
-  return event;
+  PoseResult pose;
+  pose.reason = PoseReason::kNone;
+  pose.position_nm = {254'000'000, 508'000'000, -60'000'000};
+  pose.nearest = nearest;
+  return tests::event_of(pose);
 }
 
 class SessionOf : public ::testing::Test {
  protected:
   void SetUp() override { run_.configure(); }
 
-  [[nodiscard]] Reply only_reply() const {
+  template <typename Content>
+  [[nodiscard]] Content only_reply() const {
     EXPECT_EQ(run_.output().replies.size(), 1);
-    return run_.output().replies.empty() ? Reply{} : run_.output().replies[0];
+    return content_of<Content>(run_.output().replies.empty() ? Reply{} : run_.output().replies[0]);
   }
 
   SheetRun<FixedPoint> run_;
@@ -52,15 +48,13 @@ TEST_F(SessionOf, TakesAStartInTheFieldThatItCameWith) {
   EXPECT_EQ(run_.sighting().state, TrackState::kTracking);
   EXPECT_EQ(run_.sighting().tool, kTube);
   EXPECT_TRUE(run_.sighting().aligned);
-  EXPECT_EQ(only_reply().kind, EventKind::kStart);
-  EXPECT_EQ(only_reply().verdict, Verdict::kTaken);
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kNone);
 }
 
 TEST_F(SessionOf, RefusesAStartAndSaysWhy) {
   run_.add_start(kOverTube, {{20, 10}, {21, 10}});
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
-  EXPECT_EQ(only_reply().refusal, StartRefusal::kTooFew);
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kTooFew);
   EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
   EXPECT_EQ(run_.sighting().reason, Reason::kStartRefused);
 }
@@ -78,8 +72,7 @@ TEST_F(SessionOf, RefusesAStartOnAPictureThatShowsOtherTubeEndsElsewhere) {
   }
   run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
-  EXPECT_EQ(only_reply().refusal, StartRefusal::kPicture);
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kPicture);
 }
 
 TEST_F(SessionOf, RefusesAStartThatOneClickContradictsHoweverFarApart) {
@@ -88,14 +81,12 @@ TEST_F(SessionOf, RefusesAStartThatOneClickContradictsHoweverFarApart) {
     for (const TubeAddress error : {TubeAddress{1, 0}, {0, -1}}) {
       tests::set_clicks(*run_.sheet, kOverTube, {{21, 10}, {19, 8}, {23, 12}}, {3.0, -2.0},
                         *run_.settings);
-      Event event;
-      event.kind = EventKind::kStart;
-      event.start = run_.settings->start.tubes;
-      event.start[wrong].address.row += error.row;
-      event.start[wrong].address.column += error.column;
-      run_.add(event);
+      Start start{run_.settings->start.tubes, {}, false};
+      start.tubes[wrong].address.row += error.row;
+      start.tubes[wrong].address.column += error.column;
+      run_.add(tests::event_of(start));
       run_.step(kOverTube);
-      EXPECT_EQ(only_reply().verdict, Verdict::kRefused) << wrong;
+      EXPECT_NE(only_reply<StartReply>().refusal, StartRefusal::kNone) << wrong;
       EXPECT_EQ(run_.sighting().state, TrackState::kWaiting) << wrong;
     }
   }
@@ -105,11 +96,11 @@ TEST_F(SessionOf, RefusesAStartInADamagedOrBlackField) {
   run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
   run_.status = FieldStatus::kDamaged;
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().refusal, StartRefusal::kPicture);
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kPicture);
   run_.sheet->look.gain = 0.0;
   run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().verdict, Verdict::kRefused);
+  EXPECT_NE(only_reply<StartReply>().refusal, StartRefusal::kNone);
   EXPECT_EQ(run_.sighting().state, TrackState::kWaiting);
 }
 
@@ -129,17 +120,20 @@ TEST_F(SessionOf, ConfirmsARightClaimAndContradictsAWrongOne) {
   run_.step(kOverTube);
   const auto& replies = run_.output().replies;
   ASSERT_EQ(replies.size(), 2);
-  EXPECT_EQ(replies[0].kind, EventKind::kClaim);
-  EXPECT_EQ(replies[0].verdict, Verdict::kConfirmed);
-  EXPECT_EQ(replies[0].tube, kTube);
-  EXPECT_EQ(replies[1].verdict, Verdict::kContradicted);
-  EXPECT_EQ(replies[1].tube, kTube) << "the tube that the box vouches for";
+  const auto right = content_of<ClaimReply>(replies[0]);
+  const auto wrong = content_of<ClaimReply>(replies[1]);
+  EXPECT_EQ(right.verdict, ClaimVerdict::kConfirmed);
+  EXPECT_EQ(right.claimed, kTube);
+  EXPECT_EQ(right.tube, kTube);
+  EXPECT_EQ(wrong.verdict, ClaimVerdict::kContradicted);
+  EXPECT_EQ(wrong.claimed, (TubeAddress{20, 11}));
+  EXPECT_EQ(wrong.tube, kTube) << "the tube that the box vouches for";
 }
 
 TEST_F(SessionOf, CannotTellWhatToSayToAClaimWithoutAnAlignedTube) {
   run_.add_claim(kTube);
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "waiting";
+  EXPECT_EQ(only_reply<ClaimReply>().verdict, ClaimVerdict::kUnknown) << "waiting";
 
   run_.begin();
   for (int i = 0; i < 20; ++i) {
@@ -148,18 +142,19 @@ TEST_F(SessionOf, CannotTellWhatToSayToAClaimWithoutAnAlignedTube) {
   run_.add_claim(kTube);
   run_.step(moved(kOverTube, 8.0));
   ASSERT_EQ(run_.sighting().state, TrackState::kTracking);
-  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "8 mm off, beyond aligned_within_mm";
+  EXPECT_EQ(only_reply<ClaimReply>().verdict, ClaimVerdict::kUnknown)
+      << "8 mm off, beyond aligned_within_mm";
 
   run_.sheet->look.gain = 0.0;
   run_.add_claim(kTube);
   run_.step(moved(kOverTube, 8.0));
-  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "coasting";
+  EXPECT_EQ(only_reply<ClaimReply>().verdict, ClaimVerdict::kUnknown) << "coasting";
 }
 
 TEST_F(SessionOf, NamesTheTubeThatTheOperatorPicks) {
   run_.add_pick(run_.sheet->image_of(kOverTube, kTube));
   run_.step(kOverTube);
-  EXPECT_EQ(only_reply().verdict, Verdict::kUnknown) << "waiting";
+  EXPECT_EQ(only_reply<PickReply>().doubt, PickDoubt::kNotTracking) << "waiting";
 
   run_.begin();
   for (const TubeAddress tube : {TubeAddress{20, 10}, TubeAddress{22, 9}, TubeAddress{21, 12}}) {
@@ -167,9 +162,8 @@ TEST_F(SessionOf, NamesTheTubeThatTheOperatorPicks) {
     // Anywhere in the tube's cell, 9 mm off here.
     run_.add_pick(run_.sheet->image_of(kOverTube, {center[0] + 7.0, center[1] - 6.0, 0.0}));
     run_.step(kOverTube);
-    EXPECT_EQ(only_reply().kind, EventKind::kPick);
-    EXPECT_EQ(only_reply().verdict, Verdict::kConfirmed);
-    EXPECT_EQ(only_reply().tube, tube);
+    EXPECT_EQ(only_reply<PickReply>().doubt, PickDoubt::kNone);
+    EXPECT_EQ(only_reply<PickReply>().tube, tube);
   }
 }
 
@@ -181,30 +175,25 @@ TEST(SessionPick, FindsNoTubeInAVoid) {
   run.add_pick(run.sheet->image_of(kOverTube, TubeAddress{22, 10}));
   run.step(kOverTube);
   ASSERT_EQ(run.output().replies.size(), 1);
-  EXPECT_EQ(run.output().replies[0].verdict, Verdict::kUnknown);
+  EXPECT_NE(content_of<PickReply>(run.output().replies[0]).doubt, PickDoubt::kNone);
 }
 
 TEST_F(SessionOf, AnswersEveryEventInOrder) {
   run_.add_start(kOverTube, {{20, 10}, {21, 10}, {20, 11}});
   run_.add_claim(kTube);
-  for (const EventKind kind :
-       {EventKind::kLampCommand, EventKind::kPoseRequest, EventKind::kAcknowledge}) {
-    Event event;
-    event.kind = kind;
-    run_.add(event);
-  }
+  run_.add(tests::event_of(LampCommand{500}));
+  run_.add(pose_request());
+  run_.add(tests::event_of(Acknowledge{}, EventOrigin::kOperator));
   run_.step(kOverTube);
   const auto& replies = run_.output().replies;
   ASSERT_EQ(replies.size(), 5);
-  EXPECT_EQ(replies[0].kind, EventKind::kStart);
-  EXPECT_EQ(replies[1].kind, EventKind::kClaim);
-  EXPECT_EQ(replies[1].verdict, Verdict::kConfirmed);
-  EXPECT_EQ(replies[2].kind, EventKind::kLampCommand);
-  EXPECT_EQ(replies[3].kind, EventKind::kPoseRequest);
-  EXPECT_EQ(replies[4].kind, EventKind::kAcknowledge);
-  EXPECT_EQ(replies[2].verdict, Verdict::kNotServed);
-  EXPECT_EQ(replies[3].verdict, Verdict::kTaken);
-  EXPECT_EQ(replies[4].verdict, Verdict::kNotServed);
+  EXPECT_EQ(content_of<StartReply>(replies[0]).refusal, StartRefusal::kNone);
+  EXPECT_EQ(content_of<ClaimReply>(replies[1]).verdict, ClaimVerdict::kConfirmed);
+  EXPECT_TRUE(tests::is<NotServedReply>(replies[2]));
+  EXPECT_EQ(content_of<PoseRequestReply>(replies[3]).refusal, PoseReason::kNone);
+  EXPECT_TRUE(tests::is<NotServedReply>(replies[4]));
+  EXPECT_EQ(replies[3].origin, EventOrigin::kRobot);
+  EXPECT_EQ(replies[4].origin, EventOrigin::kOperator);
   EXPECT_EQ(run_.output().lamp_permille, 700);
 }
 
@@ -214,7 +203,7 @@ TEST_F(SessionOf, OrdersAPoseWithTheTubesThatItSees) {
   const Output& output = run_.step(kOverTube);
 
   ASSERT_EQ(output.replies.size(), 1);
-  EXPECT_EQ(output.replies[0].verdict, Verdict::kTaken);
+  EXPECT_EQ(content_of<PoseRequestReply>(output.replies[0]).refusal, PoseReason::kNone);
   ASSERT_TRUE(output.order.wanted);
   ASSERT_GE(output.order.tubes.size(), 3);
   for (const PoseOrderTube& tube : output.order.tubes) {
@@ -233,33 +222,34 @@ TEST_F(SessionOf, TakesOnePoseRequestAtATimeUntilItsResultCame) {
   run_.add(pose_request());
   const Output& output = run_.step(kOverTube);
   ASSERT_EQ(output.replies.size(), 1);
-  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
-  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kBusy);
+  EXPECT_EQ(content_of<PoseRequestReply>(output.replies[0]).refusal, PoseReason::kBusy);
 
   run_.add(pose_result(kTube));
   run_.add(pose_request());
   run_.step(kOverTube);
   ASSERT_EQ(output.replies.size(), 2);
-  EXPECT_EQ(output.replies[1].verdict, Verdict::kTaken);
+  EXPECT_EQ(content_of<PoseRequestReply>(output.replies[1]).refusal, PoseReason::kNone);
 }
 
 TEST_F(SessionOf, ComparesAPoseResultWithTheTubeThatItSees) {
   run_.begin();
   run_.add(pose_result(kTube));
   run_.add(pose_result({21, 10}));
-  Event refused;
-  refused.kind = EventKind::kPoseResult;
-  refused.pose.reason = PoseReason::kMoving;
-  run_.add(refused);
+  PoseResult refused;
+  refused.reason = PoseReason::kMoving;
+  run_.add(tests::event_of(refused));
   const Output& output = run_.step(kOverTube);
 
   ASSERT_EQ(output.replies.size(), 3);
-  EXPECT_EQ(output.replies[0].verdict, Verdict::kConfirmed);
-  EXPECT_EQ(output.replies[0].pose.position_nm[0], 254'000'000);
-  EXPECT_EQ(output.replies[1].verdict, Verdict::kContradicted);
-  EXPECT_EQ(output.replies[1].tube, kTube);
-  EXPECT_EQ(output.replies[2].verdict, Verdict::kRefused);
-  EXPECT_EQ(output.replies[2].pose.reason, PoseReason::kMoving);
+  const auto right = content_of<PoseReply>(output.replies[0]);
+  const auto wrong = content_of<PoseReply>(output.replies[1]);
+  const auto none = content_of<PoseReply>(output.replies[2]);
+  EXPECT_EQ(right.verdict, PoseVerdict::kConfirmed);
+  EXPECT_EQ(right.pose.position_nm[0], 254'000'000);
+  EXPECT_EQ(wrong.verdict, PoseVerdict::kContradicted);
+  EXPECT_EQ(wrong.tube, kTube);
+  EXPECT_EQ(none.verdict, PoseVerdict::kRefused);
+  EXPECT_EQ(none.pose.reason, PoseReason::kMoving);
 }
 
 TEST_F(SessionOf, RefusesAPoseRequestBeforeItKnowsTheTubes) {
@@ -267,8 +257,7 @@ TEST_F(SessionOf, RefusesAPoseRequestBeforeItKnowsTheTubes) {
   const Output& output = run_.step(kOverTube);
 
   ASSERT_EQ(output.replies.size(), 1);
-  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
-  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kNotTracking);
+  EXPECT_EQ(content_of<PoseRequestReply>(output.replies[0]).refusal, PoseReason::kNotTracking);
   EXPECT_FALSE(output.order.wanted);
 }
 
@@ -283,8 +272,7 @@ TEST_F(SessionOf, RefusesAPoseRequestWhileTheToolMoves) {
   const Output& output = run_.step(moved(place, 0.6));
 
   ASSERT_EQ(output.replies.size(), 1);
-  EXPECT_EQ(output.replies[0].verdict, Verdict::kRefused);
-  EXPECT_EQ(output.replies[0].pose.reason, PoseReason::kMoving);
+  EXPECT_EQ(content_of<PoseRequestReply>(output.replies[0]).refusal, PoseReason::kMoving);
 }
 
 TEST_F(SessionOf, KeepsItsTrackingStateSmall) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/session/session.h"
+#include "tests/support/events.h"
 #include "tests/support/synthetic_sheet.h"
 
 namespace tubesight::core::session {
@@ -61,7 +62,7 @@ class SheetRun {
   /// `divisor` 2: a camera of half the lines and columns, four times as fast to draw.
   explicit SheetRun(std::int32_t divisor = 2) {
     tests::make_synthetic_settings(*settings, divisor);
-    input_.lamp_permille = 700;
+    input_.field.lamp_permille = 700;
   }
 
   std::unique_ptr<SessionSettings> settings = std::make_unique<SessionSettings>();
@@ -81,23 +82,10 @@ class SheetRun {
   void add_start(const ToolPlace& place, const std::vector<TubeAddress>& tubes) {
     SessionSettings& s = *settings;
     tests::set_clicks(*sheet, place, tubes, {3.0, -2.0}, s);
-    Event event;
-    event.kind = EventKind::kStart;
-    event.start = s.start.tubes;
-    add(event);
+    add(tests::event_of(Start{s.start.tubes, {}, false}));
   }
-  void add_claim(TubeAddress tube) {
-    Event event;
-    event.kind = EventKind::kClaim;
-    event.claim = tube;
-    add(event);
-  }
-  void add_pick(const std::array<double, 2>& at_px) {
-    Event event;
-    event.kind = EventKind::kPick;
-    event.pick_px = at_px;
-    add(event);
-  }
+  void add_claim(TubeAddress tube) { add(tests::event_of(Claim{tube})); }
+  void add_pick(const std::array<double, 2>& at_px) { add(tests::event_of(Pick{at_px, {}})); }
 
   /// The next field, drawn at `place`; every wrong answer is a failure.
   const Output& step(const ToolPlace& place) {

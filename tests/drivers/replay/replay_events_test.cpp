@@ -2,12 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/events.h"
 #include "tests/support/temporary_folder.h"
 
 namespace tubesight::drivers {
 namespace {
 
-using core::EventKind;
+using tests::content_of;
 
 const std::string kHeader = "field,time_s,kind,values\n";
 
@@ -24,8 +25,7 @@ TEST(ReplayEvents, ReadsWhatBecameOfAPoseRequestExactly) {
   EXPECT_TRUE(events.has_pose_results());
   events.take_before(8, list);
   ASSERT_EQ(list.size(), 2);
-  const core::PoseResult& pose = list[0].pose;
-  EXPECT_EQ(list[0].kind, EventKind::kPoseResult);
+  const auto pose = content_of<core::PoseResult>(list[0]);
   EXPECT_EQ(pose.reason, core::PoseReason::kNone);
   EXPECT_EQ(pose.tubes, 65);
   EXPECT_EQ(pose.nearest, (core::TubeAddress{7, -41}));
@@ -35,7 +35,7 @@ TEST(ReplayEvents, ReadsWhatBecameOfAPoseRequestExactly) {
   EXPECT_EQ(pose.position_sigma_nm[2], 1);
   EXPECT_EQ(pose.angle_sigma_ndeg[2], 1'200'000);
   EXPECT_EQ(pose.offset_nm, 361'713);
-  EXPECT_EQ(list[1].pose.reason, core::PoseReason::kMoving);
+  EXPECT_EQ(content_of<core::PoseResult>(list[1]).reason, core::PoseReason::kMoving);
 }
 
 TEST(ReplayEvents, RefusesAPoseThatIsNeitherNumbersNorAReason) {
@@ -62,24 +62,21 @@ TEST(ReplayEvents, ReadsEachKind) {
 
   events.take_before(0, list);
   ASSERT_EQ(list.size(), 2);
-  EXPECT_EQ(list[0].kind, EventKind::kStart);
-  ASSERT_EQ(list[0].start.size(), 3);
-  EXPECT_EQ(list[0].start[2].address, (core::TubeAddress{40, 61}));
-  EXPECT_EQ(list[0].start[2].at_px[0], 387.5);
-  EXPECT_EQ(list[0].start[2].at_px[1], 186.0);
-  EXPECT_EQ(list[1].kind, EventKind::kClaim);
-  EXPECT_EQ(list[1].claim, (core::TubeAddress{-4, 60}));
+  const auto start = content_of<core::Start>(list[0]);
+  ASSERT_EQ(start.tubes.size(), 3);
+  EXPECT_EQ(start.tubes[2].address, (core::TubeAddress{40, 61}));
+  EXPECT_EQ(start.tubes[2].at_px[0], 387.5);
+  EXPECT_EQ(start.tubes[2].at_px[1], 186.0);
+  EXPECT_EQ(content_of<core::Claim>(list[1]).tube, (core::TubeAddress{-4, 60}));
   events.take_before(1, list);
   EXPECT_TRUE(list.empty());
   EXPECT_EQ(events.left(), 4u);
   events.take_before(2, list);
   ASSERT_EQ(list.size(), 4);
-  EXPECT_EQ(list[0].kind, EventKind::kLampCommand);
-  EXPECT_EQ(list[0].lamp_permille, 250);
-  EXPECT_EQ(list[1].kind, EventKind::kPoseRequest);
-  EXPECT_EQ(list[2].kind, EventKind::kPick);
-  EXPECT_EQ(list[2].pick_px[0], 320.25);
-  EXPECT_EQ(list[3].kind, EventKind::kAcknowledge);
+  EXPECT_EQ(content_of<core::LampCommand>(list[0]).permille, 250);
+  EXPECT_TRUE(tests::is<core::PoseRequest>(list[1]));
+  EXPECT_EQ(content_of<core::Pick>(list[2]).at_px[0], 320.25);
+  EXPECT_TRUE(tests::is<core::Acknowledge>(list[3]));
   EXPECT_EQ(events.left(), 0u);
 }
 
@@ -91,7 +88,7 @@ TEST(ReplayEvents, TakesUnquotedCommasInTheLastColumn) {
   ASSERT_TRUE(events.parse(kHeader + "0,0,claim,40,60\n", "a.events.csv", messages));
   events.take_before(0, list);
   ASSERT_EQ(list.size(), 1);
-  EXPECT_EQ(list[0].claim, (core::TubeAddress{40, 60}));
+  EXPECT_EQ(content_of<core::Claim>(list[0]).tube, (core::TubeAddress{40, 60}));
 
   // With a further column only quotation marks keep them apart.
   EXPECT_FALSE(events.parse("field,time_s,kind,values,who\n0,0,claim,40,60\n", "a", messages));

@@ -40,7 +40,7 @@ TEST(SimulatedHeap, IsNotTouchedByAFieldNorByTheRobot) {
         if (!message->has_value()) {
           break;
         }
-        good = good && link.send_reply(**message, {}).has_value();
+        good = good && link.send_reply({}).has_value();
         ++messages;
       }
       good = good && link.send_sighting({}).has_value();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/hal/robot_link_contract.h"
+#include "tests/support/events.h"
 #include "tests/support/simulated_bench.h"
 
 namespace tubesight::drivers {
@@ -43,23 +44,17 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Simulated, RobotLinkContract, drivers::SimulatedM
 namespace tubesight::drivers {
 namespace {
 
-core::Event of_kind(core::EventKind kind) {
-  core::Event event;
-  event.kind = kind;
-  return event;
-}
-
 TEST(SimulatedRobotLink, LosesAndGarblesTheSharesAskedFor) {
   SimulatedMaker maker({0.1, 0.2, 5});
   ASSERT_TRUE(maker.link().start());
   int arrived = 0;
   int garbled = 0;
   for (int i = 0; i < 1000; ++i) {
-    maker.say(of_kind(core::EventKind::kPoseRequest));
+    maker.say(tests::event_of(core::PoseRequest{}));
     const auto message = maker.link().poll_event();
     arrived += message && message->has_value() ? 1 : 0;
     garbled += !message && message.error() == core::Error::kDataLoss ? 1 : 0;
-    ASSERT_TRUE(maker.link().send_reply({}, {}));
+    ASSERT_TRUE(maker.link().send_reply({}));
   }
 
   // Four standard deviations.
@@ -71,11 +66,9 @@ TEST(SimulatedRobotLink, LosesAndGarblesTheSharesAskedFor) {
 TEST(SimulatedRobotLink, TakesWhatNoRobotMaySayForGarbled) {
   SimulatedMaker maker;
   ASSERT_TRUE(maker.link().start());
-  core::Event bright = of_kind(core::EventKind::kLampCommand);
-  bright.lamp_permille = 1001;
   for (const core::Event& event :
-       {of_kind(core::EventKind::kPick), of_kind(core::EventKind::kAcknowledge),
-        of_kind(core::EventKind::kPoseResult), bright}) {
+       {tests::event_of(core::Pick{}), tests::event_of(core::Acknowledge{}),
+        tests::event_of(core::PoseResult{}), tests::event_of(core::LampCommand{1001})}) {
     maker.say(event);
     const auto message = maker.link().poll_event();
     ASSERT_FALSE(message);
@@ -87,18 +80,18 @@ TEST(SimulatedRobotLink, WhatIsSentWithoutAPlugIsLost) {
   SimulatedMaker maker;
   ASSERT_TRUE(maker.link().start());
   maker.link().connect(false);
-  maker.say(of_kind(core::EventKind::kPoseRequest));
+  maker.say(tests::event_of(core::PoseRequest{}));
   const auto gone = maker.link().poll_event();
   ASSERT_FALSE(gone);
   EXPECT_EQ(gone.error(), core::Error::kDisconnected);
-  EXPECT_FALSE(maker.link().send_reply({}, {}));
+  EXPECT_FALSE(maker.link().send_reply({}));
   EXPECT_FALSE(maker.link().send_sighting({}));
   maker.link().connect(true);
 
   const auto none = maker.link().poll_event();
   ASSERT_TRUE(none);
   EXPECT_FALSE(none->has_value());
-  maker.say(of_kind(core::EventKind::kPoseRequest));
+  maker.say(tests::event_of(core::PoseRequest{}));
   const auto next = maker.link().poll_event();
   ASSERT_TRUE(next);
   EXPECT_TRUE(next->has_value());
@@ -108,20 +101,21 @@ TEST(SimulatedRobotLink, WhatIsSentWithoutAPlugIsLost) {
 TEST(SimulatedRobot, CountsWhatItHearsOfItsClaims) {
   SimulatedMaker maker;
   ASSERT_TRUE(maker.link().start());
-  const core::Event claim = of_kind(core::EventKind::kClaim);
-  using Verdict = core::Reply::Verdict;
+  using Verdict = core::ClaimVerdict;
   for (const Verdict verdict :
        {Verdict::kConfirmed, Verdict::kUnknown, Verdict::kUnknown, Verdict::kContradicted}) {
+    core::ClaimReply claim;
+    claim.verdict = verdict;
     core::Reply reply;
-    reply.verdict = verdict;
-    ASSERT_TRUE(maker.link().send_reply(claim, reply));
+    reply.content = claim;
+    ASSERT_TRUE(maker.link().send_reply(reply));
   }
 
   EXPECT_EQ(maker.robot().heard().confirmed, 1);
   EXPECT_EQ(maker.robot().heard().unknown, 2);
   EXPECT_EQ(maker.robot().heard().contradicted, 1);
   ASSERT_TRUE(maker.robot().heard().last_claim);
-  EXPECT_EQ(maker.robot().heard().last_claim->second.verdict, Verdict::kContradicted);
+  EXPECT_EQ(maker.robot().heard().last_claim->verdict, Verdict::kContradicted);
   EXPECT_FALSE(maker.robot().heard().last_pose);
 }
 

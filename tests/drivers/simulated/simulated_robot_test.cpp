@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/trigonometry.h"
+#include "tests/support/events.h"
 #include "tests/support/simulated_bench.h"
 
 namespace tubesight::drivers {
@@ -106,8 +107,7 @@ TEST_F(SimulatedRobotTest, ClaimsAtItsOwnRate) {
   for (int i = 0; i <= 300; ++i) {  // 5 s of fields
     static_cast<void>(robot_->pose_at(i / 60.0));
     while (const auto message = robot_->take_message()) {
-      EXPECT_EQ(message->kind, core::EventKind::kClaim);
-      EXPECT_EQ(message->claim, (TubeAddress{40, 60}));
+      EXPECT_EQ(tests::content_of<core::Claim>(*message).tube, (TubeAddress{40, 60}));
       ++claims;
     }
   }
@@ -168,11 +168,11 @@ TEST_F(SimulatedRobotTest, APoseSeenCorrectsItsIdeaOfTheBase) {
 TEST_F(SimulatedRobotTest, KeepsOnlySoManyMessages) {
   configure();
   for (int i = 0; i < SimulatedRobot::kMaxMessages; ++i) {
-    EXPECT_TRUE(robot_->say(core::EventKind::kPoseRequest));
+    EXPECT_TRUE(robot_->say(tests::event_of(core::PoseRequest{})));
   }
-  EXPECT_FALSE(robot_->say(core::EventKind::kPoseRequest));
+  EXPECT_FALSE(robot_->say(tests::event_of(core::PoseRequest{})));
   ASSERT_TRUE(robot_->take_message());
-  EXPECT_TRUE(robot_->say(core::EventKind::kPoseRequest));
+  EXPECT_TRUE(robot_->say(tests::event_of(core::PoseRequest{})));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "drivers/simulated/simulated_world.h"
 #include "tests/drivers/simulated/small_scenario.h"
+#include "tests/support/events.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -194,7 +195,7 @@ TEST(FaultLampOut, LeavesAShareOfTheLight) {
 
   ASSERT_GT(fields.size(), 9U);
   EXPECT_LT(fields[6].mean(), 0.5 * sound()[6].mean());
-  EXPECT_EQ(fields[6].field.lamp_permille, 1000) << "what is commanded stays";
+  EXPECT_EQ(fields[6].field.field.lamp_permille, 1000) << "what is commanded stays";
   EXPECT_EQ(fields[9].pixels, sound()[9].pixels);
 }
 
@@ -285,7 +286,7 @@ std::vector<int> column_slips(const std::vector<Fault>& faults, double start_s =
   if (start_s >= 0.0) {
     ScenarioEvent start;
     start.at_s = start_s;
-    start.event.kind = core::EventKind::kStart;
+    start.event.content = core::Start{};
     scenario->events = {start};
   }
   const auto world = std::make_unique<SimulatedWorld>();
@@ -364,10 +365,7 @@ TEST(FaultSaltPepper, StrewsPixels) {
 TEST(Faults, EventsOfALostFieldReachTheNext) {
   const auto scenario = small_scenario();
   scenario->faults = {fault(FaultKind::kDropped)};
-  ScenarioEvent event;
-  event.at_s = 0.095;
-  event.event.claim = {40, 60};
-  scenario->events = {event};
+  scenario->events = {{0.095, tests::event_of(core::Claim{{40, 60}})}};
   const auto world = std::make_unique<SimulatedWorld>();
   ASSERT_TRUE(world->configure(*scenario));
   SimulatedField field;
@@ -377,7 +375,7 @@ TEST(Faults, EventsOfALostFieldReachTheNext) {
 
   EXPECT_EQ(field.slot, 7);
   ASSERT_EQ(field.events.size(), 1);
-  EXPECT_EQ(field.events[0].claim, (core::TubeAddress{40, 60}));
+  EXPECT_EQ(tests::content_of<core::Claim>(field.events[0]).tube, (core::TubeAddress{40, 60}));
 }
 
 TEST(Faults, NextSlotTellsOfLostFieldsToo) {

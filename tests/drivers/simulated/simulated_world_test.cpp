@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drivers/simulated/small_scenario.h"
+#include "tests/support/events.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -163,8 +164,9 @@ TEST_F(World, HandsTheClicksOverBeforeTheFirstField) {
 
   ASSERT_TRUE(world_->next(field_));
   ASSERT_EQ(field_.events.size(), 1);
-  EXPECT_EQ(field_.events[0].kind, core::EventKind::kStart);
-  EXPECT_EQ(field_.events[0].start[0].at_px[0], 150.0);
+  const auto start = tests::content_of<core::Start>(field_.events[0]);
+  ASSERT_FALSE(start.tubes.empty());
+  EXPECT_EQ(start.tubes[0].at_px[0], 150.0);
   ASSERT_TRUE(world_->next(field_));
   EXPECT_TRUE(field_.events.empty());
 }
@@ -172,8 +174,7 @@ TEST_F(World, HandsTheClicksOverBeforeTheFirstField) {
 ScenarioEvent lamp_event(double at_s, std::int32_t permille) {
   ScenarioEvent event;
   event.at_s = at_s;
-  event.event.kind = core::EventKind::kLampCommand;
-  event.event.lamp_permille = permille;
+  event.event.content = core::LampCommand{permille};
   return event;
 }
 
@@ -187,7 +188,7 @@ TEST_F(World, HandsEventsToTheFirstFieldAtOrAfterThem) {
   for (int i = 0; i < 5; ++i) {
     ASSERT_TRUE(world_->next(field_));
     counts.push_back(field_.events.size());
-    levels.push_back(field_.lamp_permille);
+    levels.push_back(field_.field.lamp_permille);
   }
   EXPECT_EQ(counts, (std::vector<std::int32_t>{0, 0, 0, 2, 0}));
   EXPECT_EQ(levels, (std::vector<std::int32_t>{1000, 1000, 1000, 1000, 200}))
@@ -213,7 +214,7 @@ TEST_F(World, ADimmerSetsTheLightOfTheNextField) {
   world_->set_lamp_permille(300);
   const double dim = mean_of_next();
 
-  EXPECT_EQ(field_.lamp_permille, 300);
+  EXPECT_EQ(field_.field.lamp_permille, 300);
   EXPECT_LT(dim, 0.6 * full);
   EXPECT_GT(dim, 0.1 * full);
 }
@@ -232,7 +233,7 @@ TEST_F(World, ALaggingLampComesHalfWayInEachFieldWhereTheLagIsAField) {
   const double third = mean_of_next() - dark;
 
   // 1/2, 3/4, 7/8 of the level.
-  EXPECT_EQ(field_.lamp_permille, 800) << "what is commanded";
+  EXPECT_EQ(field_.field.lamp_permille, 800) << "what is commanded";
   EXPECT_GT(first, 5.0);
   EXPECT_NEAR(second / first, 1.5, 0.05);
   EXPECT_NEAR(third / first, 1.75, 0.05);

@@ -6,6 +6,7 @@
 
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_meta.h"
+#include "tests/support/events.h"
 
 namespace tubesight::board {
 namespace {
@@ -13,33 +14,33 @@ namespace {
 TEST(EventRows, AreReadBackByReplay) {
   std::string text = std::string(kEventsHeader) + "\n";
   core::Event event;
-  event.kind = core::EventKind::kStart;
+  core::Start start;
   for (const core::StartPoint& point :
        {core::StartPoint{{40, 60}, {313.0, 196.25}}, core::StartPoint{{41, 60}, {321.0, 251.0}},
         core::StartPoint{{40, 61}, {387.0, 186.0}}}) {
-    ASSERT_TRUE(event.start.try_push_back(point));
+    ASSERT_TRUE(start.tubes.try_push_back(point));
   }
+  event.content = start;
   append_event_row(text, 0, core::FieldTime(0), event);
-  event = {};
-  event.claim = {-3, 61};
+  event.content = core::Claim{{-3, 61}};
   append_event_row(text, 12, core::FieldTime(200'000'000), event);
-  event.kind = core::EventKind::kLampCommand;
-  event.lamp_permille = 650;
+  event.content = core::LampCommand{650};
   append_event_row(text, 13, core::FieldTime(216'666'667), event);
-  event.kind = core::EventKind::kPick;
-  event.pick_px = {100.5, 20.0};
+  event.content = core::Pick{{100.5, 20.0}, {}};
   append_event_row(text, 14, core::FieldTime(233'333'333), event);
-  event.kind = core::EventKind::kPoseRequest;
+  event.content = core::PoseRequest{};
   append_event_row(text, 15, core::FieldTime(250'000'000), event);
-  event.kind = core::EventKind::kAcknowledge;
+  event.content = core::Acknowledge{};
   append_event_row(text, 15, core::FieldTime(250'000'000), event);
-  event.kind = core::EventKind::kPoseResult;
-  event.pose.reason = core::PoseReason::kMoving;
+  core::PoseResult pose;
+  pose.reason = core::PoseReason::kMoving;
+  event.content = pose;
   append_event_row(text, 16, core::FieldTime(266'666'667), event);
-  event.pose.reason = core::PoseReason::kNone;
-  event.pose.position_nm = {1'524'000'001, -5, 60'000'000};
-  event.pose.angles_ndeg = {1, 2, -3};
-  event.pose.tubes = 17;
+  pose.reason = core::PoseReason::kNone;
+  pose.position_nm = {1'524'000'001, -5, 60'000'000};
+  pose.angles_ndeg = {1, 2, -3};
+  pose.tubes = 17;
+  event.content = pose;
   append_event_row(text, 17, core::FieldTime(283'333'333), event);
 
   drivers::ReplayEvents events;
@@ -50,18 +51,19 @@ TEST(EventRows, AreReadBackByReplay) {
   core::EventList list;
   events.take_before(0, list);
   ASSERT_EQ(list.size(), 1);
-  EXPECT_EQ(list[0].start[0].at_px[1], 196.25);
+  EXPECT_EQ(tests::content_of<core::Start>(list[0]).tubes[0].at_px[1], 196.25);
   events.take_before(14, list);
   ASSERT_EQ(list.size(), 3);
-  EXPECT_EQ(list[0].claim, (core::TubeAddress{-3, 61}));
-  EXPECT_EQ(list[1].lamp_permille, 650);
-  EXPECT_EQ(list[2].pick_px[0], 100.5);
+  EXPECT_EQ(tests::content_of<core::Claim>(list[0]).tube, (core::TubeAddress{-3, 61}));
+  EXPECT_EQ(tests::content_of<core::LampCommand>(list[1]).permille, 650);
+  EXPECT_EQ(tests::content_of<core::Pick>(list[2]).at_px[0], 100.5);
   events.take_before(17, list);
   ASSERT_EQ(list.size(), 4);
-  EXPECT_EQ(list[2].pose.reason, core::PoseReason::kMoving);
-  EXPECT_EQ(list[3].pose.position_nm[0], 1'524'000'001);
-  EXPECT_EQ(list[3].pose.angles_ndeg[2], -3);
-  EXPECT_EQ(list[3].pose.tubes, 17);
+  EXPECT_EQ(tests::content_of<core::PoseResult>(list[2]).reason, core::PoseReason::kMoving);
+  const auto back = tests::content_of<core::PoseResult>(list[3]);
+  EXPECT_EQ(back.position_nm[0], 1'524'000'001);
+  EXPECT_EQ(back.angles_ndeg[2], -3);
+  EXPECT_EQ(back.tubes, 17);
 }
 
 TEST(MetaRows, AreReadBackByReplay) {
@@ -69,9 +71,11 @@ TEST(MetaRows, AreReadBackByReplay) {
   core::Field field;
   field.sequence = 1187;
   field.mid_exposure = core::FieldTime(39'566'666'667);
-  append_meta_row(text, 0, field, 500);
+  field.lamp_permille = 500;
+  append_meta_row(text, field);
   field.status = core::FieldStatus::kDamaged;
-  append_meta_row(text, 1, field, 0);
+  field.number = 1;
+  append_meta_row(text, field);
 
   drivers::ReplayMeta meta;
   drivers::Messages messages;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/board/bench/simulate/scenario_reading.h"
+#include "tests/support/events.h"
 
 namespace tubesight::board {
 namespace {
@@ -144,12 +145,11 @@ TEST(ScenarioFile, HandsEventsOverInTheOrderOfTheirTimes) {
   ASSERT_TRUE(read.good) << read.told();
   const auto& events = read.scenario().events;
   ASSERT_EQ(events.size(), 5U);
-  EXPECT_EQ(events[0].event.claim, (core::TubeAddress{3, 4}));
-  EXPECT_EQ(events[1].event.pick_px[1], 200.5);
-  EXPECT_EQ(events[2].event.kind, core::EventKind::kPoseRequest);
-  EXPECT_EQ(events[3].event.kind, core::EventKind::kStart);
-  EXPECT_EQ(events[3].event.start.size(), 3);
-  EXPECT_EQ(events[4].event.lamp_permille, 500);
+  EXPECT_EQ(tests::content_of<core::Claim>(events[0].event).tube, (core::TubeAddress{3, 4}));
+  EXPECT_EQ(tests::content_of<core::Pick>(events[1].event).at_px[1], 200.5);
+  EXPECT_TRUE(tests::is<core::PoseRequest>(events[2].event));
+  EXPECT_EQ(tests::content_of<core::Start>(events[3].event).tubes.size(), 3);
+  EXPECT_EQ(tests::content_of<core::LampCommand>(events[4].event).permille, 500);
 }
 
 TEST(ScenarioFile, ReadsWhatIsExpected) {

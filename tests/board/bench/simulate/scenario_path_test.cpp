@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/board/bench/simulate/scenario_reading.h"
+#include "tests/support/events.h"
 
 namespace tubesight::board {
 namespace {
@@ -72,9 +73,9 @@ TEST(ScenarioPath, RestsClaimInTheirMiddle) {
   const auto& events = read.scenario().events;
   ASSERT_EQ(events.size(), 2U);
   EXPECT_NEAR(events[0].at_s, 0.2, 1e-12);
-  EXPECT_EQ(events[0].event.claim, (core::TubeAddress{40, 60}));
+  EXPECT_EQ(tests::content_of<core::Claim>(events[0].event).tube, (core::TubeAddress{40, 60}));
   EXPECT_NEAR(events[1].at_s, 0.5, 1e-12);
-  EXPECT_EQ(events[1].event.claim, (core::TubeAddress{40, 61}));
+  EXPECT_EQ(tests::content_of<core::Claim>(events[1].event).tube, (core::TubeAddress{40, 61}));
 }
 
 TEST(ScenarioPath, ToursGoToAndFroAndLeaveVoidsOut) {
@@ -85,7 +86,7 @@ TEST(ScenarioPath, ToursGoToAndFroAndLeaveVoidsOut) {
   ASSERT_TRUE(read.good) << read.told();
   std::vector<core::TubeAddress> claimed;
   for (const auto& event : read.scenario().events) {
-    claimed.push_back(event.event.claim);
+    claimed.push_back(tests::content_of<core::Claim>(event.event).tube);
   }
   EXPECT_EQ(claimed, (std::vector<core::TubeAddress>{
                          {49, 60}, {49, 61}, {49, 62}, {49, 63}, {50, 63}, {50, 60}}));

@@ -87,8 +87,8 @@ TEST_F(ScenarioRobot, CarriesOutThePathWithItsErrorAndClaimsWhatItBelieves) {
   core::TubeAddress last{};
   while (world->next(*field)) {
     for (const core::Event& event : field->events) {
-      if (event.kind == core::EventKind::kClaim) {
-        last = event.claim;
+      if (const auto* const claim = core::content_if<core::Claim>(event)) {
+        last = claim->tube;
         ++claims;
       }
     }

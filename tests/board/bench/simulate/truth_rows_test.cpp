@@ -23,7 +23,7 @@ TEST(TruthRow, HasTheColumnsOfTheRecordings) {
 drivers::SimulatedField a_field() {
   drivers::SimulatedField field;
   field.field.mid_exposure = core::FieldTime(16'666'667);
-  field.lamp_permille = 700;
+  field.field.lamp_permille = 700;
   field.truth.T_sheet_tool = {core::rotation_from_degrees({90.0, 0.0, 0.0}),
                               Eigen::Vector3d(10.0, 20.0, -60.0)};
   field.truth.T_camera_sheet = {core::rotation_from_degrees({0.0, 0.0, 90.0}),
