@@ -213,6 +213,17 @@ TEST(Replay, RefusesAMetaFileWithoutARowForAField) {
                  "r.meta.csv: no row for field 2, expected one for each field of r.y4m");
 }
 
+TEST(Replay, RefusesAMetaFileWithThousandsSeparators) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", tiny_session());
+  folder.write("r.y4m", recording());
+  folder.write(
+      "r.meta.csv",
+      "field,sequence,time_s,status,lamp_permille\n0,0,0.00,good,1,000\n1,1,0.02,good,5\n");
+
+  expect_refused(folder, "r.y4m", "r.meta.csv:2: 6 cells, expected 5");
+}
+
 TEST(Replay, SaysWhichEventsCameAfterTheEnd) {
   const TemporaryFolder folder;
   folder.write("s.toml", tiny_session());

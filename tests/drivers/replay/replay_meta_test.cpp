@@ -48,6 +48,24 @@ TEST(ReplayMeta, TellsEachWrongCell) {
                 "a.meta.csv:5: field: 5, expected more than in the row before (5)"}));
 }
 
+TEST(ReplayMeta, RefusesRowsWithMoreCellsThanColumns) {
+  ReplayMeta meta;
+  Messages messages;
+
+  EXPECT_FALSE(meta.parse(
+      kHeader + "0,0,0.0,good,1,000\n1,1,0,02,good,5\n2,2,0.04,good,\"1,000\"\n", "m", messages));
+  EXPECT_EQ(messages, (Messages{"m:2: 6 cells, expected 5", "m:3: 6 cells, expected 5",
+                                "m:4: lamp_permille: '1,000', expected a whole number from 0 to "
+                                "1000, or nothing"}));
+
+  messages.clear();
+  EXPECT_TRUE(meta.parse("field,sequence,time_s,status,lamp_permille,gain\n0,0,0,good,1,x\n", "m",
+                         messages));
+  EXPECT_FALSE(
+      meta.parse("field,sequence,time_s,status,lamp_permille,gain\n0,0,0,good,1\n", "m", messages));
+  EXPECT_EQ(messages, Messages{"m:2: 5 cells, expected 6"});
+}
+
 TEST(ReplayMeta, StopsAfterTwentyMessages) {
   ReplayMeta meta;
   Messages messages;
