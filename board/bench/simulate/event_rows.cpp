@@ -107,10 +107,16 @@ void append_event_row(std::string& out, std::int64_t field, core::FieldTime time
 void append_meta_row(std::string& out, const core::Field& field) {
   drivers::append_whole(out, field.number);
   out += ',';
-  drivers::append_whole(out, field.sequence);
+  if (field.status != core::FieldStatus::kMissing) {
+    drivers::append_whole(out, field.sequence);
+  }
   out += ',';
   drivers::append_decimal(out, field.mid_exposure.count(), kSecond_ns, 9);
-  out += field.status == core::FieldStatus::kGood ? ",good," : ",damaged,";
+  switch (field.status) {
+    case core::FieldStatus::kGood: out += ",good,"; break;
+    case core::FieldStatus::kDamaged: out += ",damaged,"; break;
+    case core::FieldStatus::kMissing: out += ",missing,"; break;
+  }
   drivers::append_whole(out, field.lamp_permille);
   out += '\n';
 }

@@ -75,17 +75,25 @@ TEST(MetaRows, AreReadBackByReplay) {
   append_meta_row(text, field);
   field.status = core::FieldStatus::kDamaged;
   field.number = 1;
+  ++field.sequence;
+  field.mid_exposure += core::FieldTime(1);
+  append_meta_row(text, field);
+  field.status = core::FieldStatus::kMissing;
+  field.number = 2;
+  field.mid_exposure += core::FieldTime(1);
   append_meta_row(text, field);
 
   drivers::ReplayMeta meta;
   drivers::Messages messages;
   ASSERT_TRUE(meta.parse(text, "m", messages)) << messages.front();
 
-  ASSERT_EQ(meta.rows().size(), 2U);
+  ASSERT_EQ(meta.rows().size(), 3U);
   EXPECT_EQ(meta.rows()[0].sequence, 1187);
   EXPECT_EQ(meta.rows()[0].time.count(), 39'566'666'667);
   EXPECT_EQ(meta.rows()[0].lamp_permille, 500);
   EXPECT_EQ(meta.rows()[1].status, core::FieldStatus::kDamaged);
+  EXPECT_EQ(meta.rows()[1].time.count(), 39'566'666'668);
+  EXPECT_EQ(meta.rows()[2].status, core::FieldStatus::kMissing);
 }
 
 }  // namespace
