@@ -29,7 +29,8 @@ CsvReader::CsvReader(std::string_view text, std::string name)
   }
 }
 
-bool CsvReader::read_header(const std::vector<std::string_view>& columns, Messages& messages) {
+bool CsvReader::read_header(const std::vector<std::string_view>& columns, Messages& messages,
+                            LastColumn last) {
   std::string expected;
   for (const std::string_view column : columns) {
     expected += expected.empty() ? "" : ",";
@@ -46,8 +47,18 @@ bool CsvReader::read_header(const std::vector<std::string_view>& columns, Messag
   if (!same) {
     messages.push_back(place() + "wrong header, expected " + expected);
   }
-  columns_ = cells_.size();
+  header_ = cells_;
+  last_ = header_.size() == columns.size() ? last : LastColumn::kOneCell;
   return same;
+}
+
+std::optional<std::size_t> CsvReader::find_column(std::string_view name) const {
+  for (std::size_t i = 0; i < header_.size(); ++i) {
+    if (header_[i] == name) {
+      return i;
+    }
+  }
+  return std::nullopt;
 }
 
 bool CsvReader::next(Messages& messages) {
@@ -62,12 +73,34 @@ bool CsvReader::next(Messages& messages) {
     if (line.empty()) {
       continue;
     }
-    if (split(line)) {
+    if (!split(line)) {
+      messages.push_back(place() + "quotation marks do not pair, expected \"...\" around a cell");
+    } else if (!fit_to_header()) {
+      messages.push_back(place() + std::to_string(cells_.size()) + " cells, expected " +
+                         std::to_string(header_.size()));
+    } else {
       return true;
     }
-    messages.push_back(place() + "quotation marks do not pair, expected \"...\" around a cell");
+    if (messages.size() >= kMostMessages) {
+      return false;
+    }
   }
   return false;
+}
+
+/// Whether the current line has as many cells as the header, once the last column took the rest.
+bool CsvReader::fit_to_header() {
+  if (last_ == LastColumn::kRest && cells_.size() + 1 == header_.size()) {
+    cells_.emplace_back();
+  }
+  if (last_ == LastColumn::kRest && cells_.size() > header_.size()) {
+    std::string& last = cells_[header_.size() - 1];
+    for (std::size_t i = header_.size(); i < cells_.size(); ++i) {
+      last += ',' + cells_[i];
+    }
+    cells_.resize(header_.size());
+  }
+  return header_.empty() || cells_.size() == header_.size();
 }
 
 std::string CsvReader::place() const { return name_ + ":" + std::to_string(line_number_) + ": "; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,25 +13,37 @@ namespace tubesight::drivers {
 /// Walks through the lines of a CSV text that is kept by the caller.
 ///
 /// Cells are separated by commas; a cell in double quotes may hold commas and doubled quotes, but
-/// no line feed. Lines end in LF or CRLF; a byte-order mark and empty lines are passed over.
+/// no line feed. Lines end in LF or CRLF; a byte-order mark and empty lines are passed over. Behind
+/// a header each line must have as many cells as that: a surplus comma moves all cells behind it.
 class CsvReader {
  public:
+  /// What the last of the columns that are asked for takes, as long as the header ends with it.
+  enum class LastColumn : std::uint8_t {
+    kOneCell,
+    kRest,  ///< all that is left of the line, commas too; the line may also end before it
+  };
+
+  /// Messages that are enough about one file.
+  static constexpr std::size_t kMostMessages = 20;
+
   /// `name` stands before every message.
   CsvReader(std::string_view text, std::string name);
 
   /// Reads the header and checks that it begins with `columns`, in their order; what follows them
   /// is accepted. False, with one message, when it does not.
-  [[nodiscard]] bool read_header(const std::vector<std::string_view>& columns, Messages& messages);
+  [[nodiscard]] bool read_header(const std::vector<std::string_view>& columns, Messages& messages,
+                                 LastColumn last = LastColumn::kOneCell);
 
-  /// Moves to the next line that holds something; false at the end. A line with a broken quotation
-  /// gives a message and is passed over.
+  /// Moves to the next line that holds something; false at the end. A line with a broken quotation,
+  /// or with more or fewer cells than the header, gives a message and is passed over; false too
+  /// when that makes kMostMessages of them.
   [[nodiscard]] bool next(Messages& messages);
 
-  /// The cells of the current line.
+  /// The cells of the current line; once the header was read, as many as that has.
   [[nodiscard]] const std::vector<std::string>& cells() const { return cells_; }
 
-  /// Cells that the header has.
-  [[nodiscard]] std::size_t columns() const { return columns_; }
+  /// Where the header has the column of that name, from 0; empty when it has none.
+  [[nodiscard]] std::optional<std::size_t> find_column(std::string_view name) const;
 
   /// Number of the current line, from 1.
   [[nodiscard]] std::int64_t line_number() const { return line_number_; }
@@ -40,11 +53,13 @@ class CsvReader {
 
  private:
   bool split(std::string_view line);
+  bool fit_to_header();
 
   std::string_view rest_;
   std::string name_;
   std::int64_t line_number_ = 0;
-  std::size_t columns_ = 0;
+  std::vector<std::string> header_;
+  LastColumn last_ = LastColumn::kOneCell;
   std::vector<std::string> cells_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <csetjmp>
 #include <cstring>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include <png.h>
 
 #include "drivers/files/byte_source.h"
+#include "drivers/files/pgm_reader.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -81,7 +81,11 @@ bool read_png_pixels(png_structp png, png_bytepp lines) {
   if (setjmp(png_jmpbuf(png)) != 0) {
     return false;
   }
+  // More lines in the data than the header says are an error too, not a warning: the width may be
+  // what is wrong. Of what follows the pixels (texts, profiles) nothing matters.
+  png_set_benign_errors(png, 0);
   png_read_image(png, lines);
+  png_set_benign_errors(png, 1);
   png_read_end(png, nullptr);
   return true;
 }
@@ -144,48 +148,6 @@ Result<void> read_png(std::span<const std::byte> bytes, GreyPicture& picture,
   return outcome;
 }
 
-/// Takes the next number of a PGM header; comments run from # to the end of the line.
-bool take_pgm_number(std::string_view& rest, std::uint32_t& number) {
-  while (!rest.empty() && std::strchr(" \t\r\n#", rest.front()) != nullptr) {
-    const std::size_t end = rest.front() == '#' ? rest.find('\n') : 1;
-    rest.remove_prefix(std::min(end, rest.size()));
-  }
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
-  rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
-  return error == std::errc();
-}
-
-Result<void> read_pgm(std::span<const std::byte> bytes, GreyPicture& picture,
-                      std::string& message) {
-  std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  rest.remove_prefix(2);
-  std::uint32_t width_px = 0;
-  std::uint32_t height_px = 0;
-  std::uint32_t largest = 0;
-  if (!take_pgm_number(rest, width_px) || !take_pgm_number(rest, height_px) ||
-      !take_pgm_number(rest, largest) || rest.empty() || width_px == 0 || height_px == 0) {
-    return fail(Error::kInvalidArgument, message,
-                "damaged PGM: expected P5, width, height and largest value");
-  }
-  if (largest != 255) {
-    return fail(Error::kUnsupported, message,
-                "PGM with largest value " + std::to_string(largest) + ": expected 255 (8 bits)");
-  }
-  if (width_px > kLargestSide_px || height_px > kLargestSide_px) {
-    return fail(Error::kUnsupported, message, "expected at most 8192 pixels a side");
-  }
-  rest.remove_prefix(1);
-  const std::size_t pixels = std::size_t{width_px} * height_px;
-  if (rest.size() < pixels) {
-    return fail(Error::kInvalidArgument, message, "damaged PGM: the file ends early");
-  }
-  picture.width_px = static_cast<std::int32_t>(width_px);
-  picture.height_px = static_cast<std::int32_t>(height_px);
-  picture.pixels.resize(pixels);
-  std::memcpy(picture.pixels.data(), rest.data(), pixels);
-  return {};
-}
-
 }  // namespace
 
 Result<void> read_grey_picture(const std::string& path, GreyPicture& picture,
@@ -212,7 +174,7 @@ Result<void> read_grey_picture(std::span<const std::byte> bytes, GreyPicture& pi
     return read_png(bytes, picture, message);
   }
   if (bytes.size() >= 3 && bytes[0] == std::byte{'P'} && bytes[1] == std::byte{'5'}) {
-    return read_pgm(bytes, picture, message);
+    return read_pgm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, picture, message);
   }
   return fail(Error::kInvalidArgument, message,
               "neither PNG nor PGM: expected an 8-bit grey still");

@@ -1,5 +1,6 @@
 #include "drivers/files/y4m_header.h"
 
+#include <array>
 #include <utility>
 
 #include "drivers/files/csv_reader.h"
@@ -75,29 +76,40 @@ Result<void> parse_interlacing(std::string_view parameter, Y4mHeader& header,
 
 std::int64_t half(std::int64_t side_px) { return (side_px + 1) / 2; }
 
+struct ColourSpace {
+  std::string_view parameter;
+  std::int64_t (*chroma_bytes)(std::int64_t width_px, std::int64_t height_px);
+};
+
+std::int64_t none(std::int64_t, std::int64_t) { return 0; }
+std::int64_t quarters(std::int64_t width_px, std::int64_t height_px) {
+  return 2 * half(width_px) * half(height_px);
+}
+
+constexpr std::array kColourSpaces = {
+    ColourSpace{"Cmono", none},
+    ColourSpace{"C420", quarters},
+    ColourSpace{"C420jpeg", quarters},
+    ColourSpace{"C420mpeg2", quarters},
+    ColourSpace{"C420paldv", quarters},
+    ColourSpace{"C422", [](std::int64_t w, std::int64_t h) { return 2 * half(w) * h; }},
+    ColourSpace{"C411", [](std::int64_t w, std::int64_t h) { return 2 * half(half(w)) * h; }},
+    ColourSpace{"C444", [](std::int64_t w, std::int64_t h) { return 2 * w * h; }},
+    ColourSpace{"C444alpha", [](std::int64_t w, std::int64_t h) { return 3 * w * h; }},
+};
+
 Result<void> set_chroma(std::string_view parameter, Y4mHeader& header, std::string& message) {
-  const std::string_view space = parameter.empty() ? "420" : parameter.substr(1);
-  const std::int64_t width = header.width_px;
-  const std::int64_t height = header.height_px;
-  if (space == "mono") {
-    header.chroma_bytes = 0;
-  } else if (space == "420" || space == "420jpeg" || space == "420mpeg2" || space == "420paldv") {
-    header.chroma_bytes = 2 * half(width) * half(height);
-  } else if (space == "422") {
-    header.chroma_bytes = 2 * half(width) * height;
-  } else if (space == "411") {
-    header.chroma_bytes = 2 * half(half(width)) * height;
-  } else if (space == "444") {
-    header.chroma_bytes = 2 * width * height;
-  } else if (space == "444alpha") {
-    header.chroma_bytes = 3 * width * height;
-  } else {
-    return fail(Error::kUnsupported, message,
-                "colour format " + in_quotes(parameter) +
-                    " is not supported: expected 8 bits as Cmono, C420jpeg, C420mpeg2, C420paldv, "
-                    "C411, C422 or C444");
+  const std::string_view wanted = parameter.empty() ? "C420" : parameter;
+  for (const ColourSpace& space : kColourSpaces) {
+    if (space.parameter == wanted) {
+      header.chroma_bytes = space.chroma_bytes(header.width_px, header.height_px);
+      return {};
+    }
   }
-  return {};
+  return fail(Error::kUnsupported, message,
+              "colour format " + in_quotes(parameter) +
+                  " is not supported: expected 8 bits as Cmono, C420jpeg, C420mpeg2, C420paldv, "
+                  "C411, C422 or C444");
 }
 
 }  // namespace
@@ -105,6 +117,10 @@ Result<void> set_chroma(std::string_view parameter, Y4mHeader& header, std::stri
 Result<Y4mHeader> parse_y4m_header(std::string_view line, std::string& message) {
   if (!line.starts_with(kMagic) || (line.size() > kMagic.size() && line[kMagic.size()] != ' ')) {
     message = "not a YUV4MPEG2 file: expected the first line to begin with 'YUV4MPEG2 '";
+    return Unexpected(Error::kInvalidArgument);
+  }
+  if (line.find('\r') != std::string_view::npos) {
+    message = kTextModeWords;
     return Unexpected(Error::kInvalidArgument);
   }
   Y4mHeader header;
@@ -135,6 +151,15 @@ Result<Y4mHeader> parse_y4m_header(std::string_view line, std::string& message) 
     return Unexpected(outcome.error());
   }
   return header;
+}
+
+std::string_view y4m_colour_of(const Y4mHeader& header, std::int64_t chroma_bytes) {
+  for (const ColourSpace& space : kColourSpaces) {
+    if (space.chroma_bytes(header.width_px, header.height_px) == chroma_bytes) {
+      return space.parameter;
+    }
+  }
+  return {};
 }
 
 }  // namespace tubesight::drivers

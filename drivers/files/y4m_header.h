@@ -38,4 +38,13 @@ struct Y4mHeader {
 /// `message` says which, without the file's name.
 [[nodiscard]] core::Result<Y4mHeader> parse_y4m_header(std::string_view line, std::string& message);
 
+/// The parameter `C` that makes so many bytes follow the luma plane ("Cmono", "C420"); of several
+/// the shortest, and empty when none does.
+[[nodiscard]] std::string_view y4m_colour_of(const Y4mHeader& header, std::int64_t chroma_bytes);
+
+/// What a recording is told that was copied as if it were text: bytes of its pixels are changed
+/// too.
+inline constexpr std::string_view kTextModeWords =
+    "damaged by a transfer in text mode: a line ends in CR LF, expected LF alone";
+
 }  // namespace tubesight::drivers

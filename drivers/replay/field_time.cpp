@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/assert.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::drivers {
 
@@ -23,6 +24,30 @@ core::FieldTime nominal_field_time(std::int64_t number, std::int64_t rate_numera
   const std::int64_t rest = product % divisor;
   const std::int64_t nanoseconds = (2 * rest * kNanoseconds + divisor) / (2 * divisor);
   return core::FieldTime(seconds * kNanoseconds + nanoseconds);
+}
+
+bool parse_time(std::string_view text, core::FieldTime& time, const char*& expected) {
+  constexpr std::int32_t kDecimals = 9;
+  constexpr std::int64_t kLargestTime_ns = 4'000'000'000'000'000'000;
+  std::int64_t time_ns = 0;
+  if (parse_decimal(text, kDecimals, time_ns)) {
+    expected = "at most 4000000000 s to either side of zero";
+    if (time_ns < -kLargestTime_ns || time_ns > kLargestTime_ns) {
+      return false;
+    }
+    time = core::FieldTime(time_ns);
+    return true;
+  }
+  // Right in its form as far as its point, the number is too large.
+  const std::string_view whole = text.substr(0, text.find('.'));
+  const std::string_view digits = whole.substr(whole.starts_with('-') ? 1 : 0);
+  std::int64_t ignored = 0;
+  const bool form =
+      !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos &&
+      (whole.size() == text.size() || parse_decimal(text.substr(whole.size()), kDecimals, ignored));
+  expected =
+      form ? "at most 4000000000 s to either side of zero" : "seconds with at most 9 decimals";
+  return false;
 }
 
 }  // namespace tubesight::drivers

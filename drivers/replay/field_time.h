@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "core/base/field.h"
 
@@ -13,5 +14,9 @@ namespace tubesight::drivers {
 /// rate_denominator 1..10^9 (frames a second); what is beyond 292 years is held there.
 [[nodiscard]] core::FieldTime nominal_field_time(std::int64_t number, std::int64_t rate_numerator,
                                                  std::int64_t rate_denominator);
+
+/// Reads an instant in seconds with at most 9 decimals, within 4 * 10^9 s of zero, so that
+/// differences fit. False, and `time` as it was, for anything else; `expected` then says what was.
+[[nodiscard]] bool parse_time(std::string_view text, core::FieldTime& time, const char*& expected);
 
 }  // namespace tubesight::drivers

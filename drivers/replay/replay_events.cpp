@@ -3,11 +3,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/base/names.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
 #include "drivers/replay/companion.h"
+#include "drivers/replay/field_time.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -17,8 +19,6 @@ using core::Event;
 using core::EventOrigin;
 using core::Result;
 using core::Unexpected;
-
-constexpr std::size_t kMostMessages = 20;
 
 static_assert(core::kMaxStartPoints == 8);
 
@@ -171,55 +171,110 @@ constexpr std::array kKinds = {
          parse_pose_result},
 };
 
-/// The column `values`: the last one, so that commas in it need no quotation marks as long as the
-/// header has no further columns.
-std::string values_of(const CsvReader& csv) {
-  const auto& cells = csv.cells();
-  constexpr std::size_t kColumns = 4;
-  std::string values = cells.size() < kColumns ? std::string() : cells[kColumns - 1];
-  if (csv.columns() == kColumns) {
-    for (std::size_t i = kColumns; i < cells.size(); ++i) {
-      values += ',' + cells[i];
+/// Where the header has the columns that were appended in later versions.
+struct AppendedColumns {
+  explicit AppendedColumns(const CsvReader& csv)
+      : id(csv.find_column("id")),
+        seen_field(csv.find_column("seen_field")),
+        confirm(csv.find_column("confirm")) {}
+
+  std::optional<std::size_t> id;
+  std::optional<std::size_t> seen_field;
+  std::optional<std::size_t> confirm;
+};
+
+/// Reads one row; each cell that is wrong gives a message.
+class RowReader {
+ public:
+  RowReader(const CsvReader& csv, Messages& messages) : csv_(csv), messages_(messages) {}
+
+  bool read(const AppendedColumns& appended, std::int64_t& field, Event& event) {
+    read_field_and_time(field, event);
+    const std::string& word = csv_.cells()[2];
+    const Kind* kind = nullptr;
+    for (const Kind& candidate : kKinds) {
+      kind = candidate.word == word ? &candidate : kind;
+    }
+    if (kind == nullptr) {
+      complain("kind", word, "claim, start, lamp, pose, pick, acknowledge or pose-result");
+      return false;
+    }
+    const std::string& values = csv_.cells()[3];
+    if (!kind->parse(values, event)) {
+      complain("values", values, std::string(kind->values) + " for " + word);
+    }
+    if (const std::string* const cell = filled(appended.id);
+        cell != nullptr && !parse_whole(*cell, event.id)) {
+      complain("id", *cell, "a whole number, or nothing");
+    }
+    read_seen_field(filled(appended.seen_field), field, word, event);
+    read_confirm(filled(appended.confirm), word, event);
+    return good_;
+  }
+
+ private:
+  void complain(const char* column, std::string_view cell, const std::string& expected) {
+    messages_.push_back(csv_.place() + column + ": " + in_quotes(cell) + ", expected " + expected);
+    good_ = false;
+  }
+
+  /// The cell of a column that may be missing; null where there is nothing.
+  [[nodiscard]] const std::string* filled(std::optional<std::size_t> column) const {
+    return column && !csv_.cells()[*column].empty() ? &csv_.cells()[*column] : nullptr;
+  }
+
+  void read_field_and_time(std::int64_t& field, Event& event) {
+    const auto& cells = csv_.cells();
+    if (!parse_whole(cells[0], field) || field < 0) {
+      complain("field", cells[0], "a whole number from 0");
+    }
+    core::FieldTime time{};
+    const char* expected = nullptr;
+    if (cells[1].empty()) {
+      return;
+    }
+    if (parse_time(cells[1], time, expected)) {
+      event.at = time;
+    } else {
+      complain("time_s", cells[1], std::string(expected) + ", or nothing");
     }
   }
-  return values;
-}
 
-bool parse_row(const CsvReader& csv, std::int64_t& field, Event& event, Messages& messages) {
-  const auto& cells = csv.cells();
-  constexpr std::size_t kFewestCells = 3;  // without `values`
-  if (cells.size() < kFewestCells) {
-    messages.push_back(csv.place() + std::to_string(cells.size()) + " cells, expected " +
-                       std::to_string(csv.columns()));
-    return false;
+  void read_seen_field(const std::string* cell, std::int64_t field, const std::string& word,
+                       Event& event) {
+    if (cell == nullptr) {
+      return;
+    }
+    std::int64_t seen = 0;
+    auto* const start = core::content_if<core::Start>(event);
+    auto* const pick = core::content_if<core::Pick>(event);
+    if (start == nullptr && pick == nullptr) {
+      complain("seen_field", *cell, "nothing for " + word);
+    } else if (!parse_whole(*cell, seen) || seen < 0 || seen > field) {
+      complain("seen_field", *cell, "a whole number from 0 to the row's field, or nothing");
+    } else {
+      (start != nullptr ? start->seen_field : pick->seen_field) = seen;
+    }
   }
-  bool good = true;
-  const auto complain = [&](const char* column, std::string_view cell,
-                            const std::string& expected) {
-    messages.push_back(csv.place() + column + ": " + in_quotes(cell) + ", expected " + expected);
-    good = false;
-  };
-  if (!parse_whole(cells[0], field) || field < 0) {
-    complain("field", cells[0], "a whole number from 0");
+
+  void read_confirm(const std::string* cell, const std::string& word, Event& event) {
+    if (cell == nullptr) {
+      return;
+    }
+    auto* const start = core::content_if<core::Start>(event);
+    if (start == nullptr) {
+      complain("confirm", *cell, "nothing for " + word);
+    } else if (*cell != "0" && *cell != "1") {
+      complain("confirm", *cell, "1, 0 or nothing");
+    } else {
+      start->confirmed = *cell == "1";
+    }
   }
-  std::int64_t time_ns = 0;
-  if (!cells[1].empty() && !parse_decimal(cells[1], 9, time_ns)) {
-    complain("time_s", cells[1], "seconds with at most 9 decimals, or nothing");
-  }
-  const Kind* kind = nullptr;
-  for (const Kind& candidate : kKinds) {
-    kind = candidate.word == cells[2] ? &candidate : kind;
-  }
-  if (kind == nullptr) {
-    complain("kind", cells[2], "claim, start, lamp, pose, pick, acknowledge or pose-result");
-    return false;
-  }
-  const std::string values = values_of(csv);
-  if (!kind->parse(values, event)) {
-    complain("values", values, std::string(kind->values) + " for " + std::string(kind->word));
-  }
-  return good;
-}
+
+  const CsvReader& csv_;
+  Messages& messages_;
+  bool good_ = true;
+};
 
 }  // namespace
 
@@ -243,11 +298,16 @@ Result<void> ReplayEvents::parse(std::string_view text, const std::string& name,
   has_pose_results_ = false;
   Messages found;
   CsvReader csv(text, name);
+  std::int64_t number = 0;
   std::int32_t in_field = 0;
-  if (csv.read_header({"field", "time_s", "kind", "values"}, found)) {
-    while (found.size() < kMostMessages && csv.next(found)) {
+  // Commas in `values` need no quotation marks as long as it is the last column.
+  if (csv.read_header({"field", "time_s", "kind", "values"}, found, CsvReader::LastColumn::kRest)) {
+    const AppendedColumns appended(csv);
+    while (found.size() < CsvReader::kMostMessages && csv.next(found)) {
       Row row;
-      if (!parse_row(csv, row.field, row.event, found)) {
+      ++number;
+      row.event.id = number;  // unless the file has one
+      if (!RowReader(csv, found).read(appended, row.field, row.event)) {
         continue;
       }
       if (!rows_.empty() && row.field < rows_.back().field) {

@@ -13,7 +13,7 @@
 namespace tubesight::drivers {
 
 /// The events of a `NAME.events.csv`; the grammar of its column `values` is in
-/// docs/file-formats.md.
+/// docs/file-formats.md. An event without an id gets its place in the file, from 1.
 class ReplayEvents {
  public:
   /// Reads the events beside a recording; none when there is no such file.

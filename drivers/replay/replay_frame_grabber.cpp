@@ -226,6 +226,9 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   field.parity = parity_of(camera_.scan, later_field_);
   field.pixels = core::field_of(frame(), field.parity);
   TUBESIGHT_TRY(describe(number, field));
+  if (field.status == core::FieldStatus::kMissing) {
+    field.pixels = {};  // the picture in the file is a filler
+  }
   field_number_ = number;
   field_time_ = field.mid_exposure;
   latest_time_ = std::max(latest_time_, field_time_);

@@ -19,7 +19,8 @@ namespace tubesight::drivers {
 /// An interlaced frame gives two fields in the order of their exposure, a progressive one gives
 /// one. Sequence, time, status and lamp level come from `NAME.meta.csv` where it stands beside the
 /// recording, and else are: counted from 0, nominal_field_time() of the header's rate, good,
-/// unknown. A meta file must have a row for each field and no others.
+/// unknown. A meta file must have a row for each field and no others. The picture of a field that
+/// it calls missing is a filler and is not delivered.
 ///
 /// Whatever fails leaves its lines in messages(), complete with the file's name.
 class ReplayFrameGrabber final : public hal::FrameGrabber {

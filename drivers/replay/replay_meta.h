@@ -14,9 +14,9 @@ namespace tubesight::drivers {
 
 /// What a meta file says about one field.
 struct FieldMeta {
-  std::int64_t field = 0;  ///< number in files
-  std::int64_t sequence = 0;
-  core::FieldTime time{0};  ///< mid-exposure
+  std::int64_t field = 0;     ///< number in files
+  std::int64_t sequence = 0;  ///< grows; unwrapped; of a missing field that of the row before
+  core::FieldTime time{0};    ///< mid-exposure
   core::FieldStatus status = core::FieldStatus::kGood;
   std::optional<std::int32_t> lamp_permille;  ///< level in force, 0..1000
   std::int64_t line = 0;                      ///< where in the file
@@ -25,8 +25,9 @@ struct FieldMeta {
 /// The rows of a `NAME.meta.csv`, in the order of their fields.
 class ReplayMeta {
  public:
-  /// Reads the text of a meta file; `name` stands before every message. All rows are checked, and
-  /// there is a message for each that is wrong (the first 20). Errors: kInvalidArgument.
+  /// Reads the text of a meta file; `name` stands before every message. All rows are checked, each
+  /// by itself and whether time and sequence grow from one to the next, and there is a message for
+  /// each that is wrong (the first 20). Errors: kInvalidArgument.
   [[nodiscard]] core::Result<void> parse(std::string_view text, const std::string& name,
                                          Messages& messages);
 

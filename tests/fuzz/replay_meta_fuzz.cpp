@@ -25,11 +25,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const std::string& message : messages) {
     require(message.find('\n') == std::string::npos && message.starts_with("fuzz.meta.csv:"));
   }
-  std::int64_t before = -1;
+  const drivers::FieldMeta* before = nullptr;
+  const drivers::FieldMeta* counted = nullptr;
   for (const drivers::FieldMeta& row : meta.rows()) {
-    require(row.field > before && meta.find(row.field) == &row);
+    require(row.field >= 0 && meta.find(row.field) == &row);
     require(row.lamp_permille.value_or(0) >= 0 && row.lamp_permille.value_or(0) <= 1000);
-    before = row.field;
+    require(before == nullptr || row.field > before->field);
+    require(!good || before == nullptr || row.time > before->time);
+    before = &row;
+    if (row.status != core::FieldStatus::kMissing) {
+      require(!good || counted == nullptr || row.sequence > counted->sequence);
+      counted = &row;
+    }
   }
   return 0;
 }

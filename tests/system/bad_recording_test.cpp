@@ -45,6 +45,43 @@ TEST(Replay, UsesTheWholeFramesOfACutRecordingAndSaysSo) {
   EXPECT_NE(run.out.find("(cut short)"), std::string::npos) << run.out;
 }
 
+TEST(Replay, UsesTheWholeFramesBeforeAGarbageTailAndSaysSo) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", tiny_session());
+  folder.write("r.y4m", recording() + std::string(4096, '\0'));
+  folder.write("x.y4m.xz", compress_xz(recording() + "\n"));
+
+  const ProgramRun plain = replay(folder, "r.y4m");
+  const std::string fields = folder.read("f.csv");
+  const ProgramRun compressed = replay(folder, "x.y4m.xz");
+
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_EQ(plain.err,
+            "r.y4m: cut short: only its first 4 frames are complete, the 4096 bytes behind them "
+            "are no frame\n");
+  EXPECT_EQ(lines_of(fields), 1 + 2 * kFrames);
+  EXPECT_NE(plain.out.find("(cut short)"), std::string::npos) << plain.out;
+  EXPECT_EQ(compressed.status, 0);
+  EXPECT_EQ(compressed.err,
+            "x.y4m.xz: cut short: only its first 4 frames are complete, the 1 byte behind them is "
+            "no frame\n");
+  EXPECT_EQ(folder.read("f.csv"), fields);
+}
+
+TEST(Replay, SaysWhatIsWrongWithAHeader) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", tiny_session());
+  folder.write("crlf.y4m", recording(std::string(kTinyHeader) + "\r"));
+  folder.write("mono.y4m", recording("YUV4MPEG2 W96 H80 F25:1 It C420jpeg"));
+
+  expect_refused(folder, "crlf.y4m",
+                 "crlf.y4m: damaged by a transfer in text mode: a line ends in CR LF, expected LF "
+                 "alone");
+  expect_refused(folder, "mono.y4m",
+                 "mono.y4m: header parameter C is wrong: it says C420, but a FRAME line stands "
+                 "where chroma should be, as in Cmono");
+}
+
 TEST(Replay, UsesTheWholeFramesOfACutCompressedRecording) {
   const TemporaryFolder folder;
   folder.write("s.toml", tiny_session());
@@ -174,6 +211,17 @@ TEST(Replay, RefusesAMetaFileWithoutARowForAField) {
 
   expect_refused(folder, "r.y4m",
                  "r.meta.csv: no row for field 2, expected one for each field of r.y4m");
+}
+
+TEST(Replay, RefusesAMetaFileWithThousandsSeparators) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", tiny_session());
+  folder.write("r.y4m", recording());
+  folder.write(
+      "r.meta.csv",
+      "field,sequence,time_s,status,lamp_permille\n0,0,0.00,good,1,000\n1,1,0.02,good,5\n");
+
+  expect_refused(folder, "r.y4m", "r.meta.csv:2: 6 cells, expected 5");
 }
 
 TEST(Replay, SaysWhichEventsCameAfterTheEnd) {

@@ -86,7 +86,7 @@ class ProgressReader {
             "configuration,seed and so on (docs/campaign.md has all columns)";
       return false;
     }
-    while (csv_.next(messages)) {
+    while (csv_.next(messages) && messages.empty()) {
       if (!take_row()) {
         why = csv_.place() + problem_;
         return false;
@@ -112,9 +112,8 @@ class ProgressReader {
  private:
   bool take_row() {
     const std::vector<std::string>& cells = csv_.cells();
-    if (cells.size() < kFixedColumns.size() + kCounts || cells[0] != kFormat) {
-      problem_ =
-          "no row of format 1 with " + std::to_string(kFixedColumns.size() + kCounts) + " cells";
+    if (cells[0] != kFormat) {
+      problem_ = "no row of format 1";
       return false;
     }
     const CampaignIdentity identity{cells[1], cells[2]};

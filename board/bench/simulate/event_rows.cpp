@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/names.h"
 #include "drivers/files/decimal.h"
@@ -94,23 +95,41 @@ void append_kind_and_values(std::string& out, const core::Event& event) {
 
 }  // namespace
 
-void append_event_row(std::string& out, std::int64_t field, core::FieldTime time,
-                      const core::Event& event) {
+void append_event_row(std::string& out, std::int64_t field, const core::Event& event) {
   drivers::append_whole(out, field);
   out += ',';
-  drivers::append_decimal(out, time.count(), kSecond_ns, 6);
+  if (event.at) {
+    drivers::append_decimal(out, event.at->count(), kSecond_ns, 9);
+  }
   out += ',';
   append_kind_and_values(out, event);
-  out += '\n';
+  out += ',';
+  drivers::append_whole(out, event.id);
+  out += ',';
+  const auto* const start = core::content_if<core::Start>(event);
+  const auto* const pick = core::content_if<core::Pick>(event);
+  const auto seen = start != nullptr  ? start->seen_field
+                    : pick != nullptr ? pick->seen_field
+                                      : std::nullopt;
+  if (seen) {
+    drivers::append_whole(out, *seen);
+  }
+  out += start != nullptr && start->confirmed ? ",1\n" : ",\n";
 }
 
 void append_meta_row(std::string& out, const core::Field& field) {
   drivers::append_whole(out, field.number);
   out += ',';
-  drivers::append_whole(out, field.sequence);
+  if (field.status != core::FieldStatus::kMissing) {
+    drivers::append_whole(out, field.sequence);
+  }
   out += ',';
   drivers::append_decimal(out, field.mid_exposure.count(), kSecond_ns, 9);
-  out += field.status == core::FieldStatus::kGood ? ",good," : ",damaged,";
+  switch (field.status) {
+    case core::FieldStatus::kGood: out += ",good,"; break;
+    case core::FieldStatus::kDamaged: out += ",damaged,"; break;
+    case core::FieldStatus::kMissing: out += ",missing,"; break;
+  }
   drivers::append_whole(out, field.lamp_permille);
   out += '\n';
 }

@@ -117,7 +117,7 @@ void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
       start_passed_ = true;  // replay makes it of the session's [start]
       continue;
     }
-    append_event_row(rows_[kEvents], number, field.field.mid_exposure, event);
+    append_event_row(rows_[kEvents], number, event);
   }
   const core::CameraSettings& camera = scenario_->scene.camera;
   append_truth_row(rows_[kTruth], place, field, camera,

@@ -31,7 +31,7 @@ TEST(ResultFiles, HoldOneRowAFieldAndOneATubeEnd) {
   EXPECT_EQ(folder.read("f.csv"),
             "field,frame,parity,time_s,state,tracked,primary_row,primary_column,primary_u_px,"
             "primary_v_px,tool_row,tool_column,tool_offset_mm,tool_height_mm,aligned,margin,"
-            "reason\n"
+            "reason,tool_dx_mm,tool_dy_mm,residual_px,liveness\n"
             "3,1,odd,0.000000,waiting,0,,,,,,,,,0,,no-start,,,,unknown\n");
   // A plug is no tube-end measured.
   EXPECT_EQ(folder.read("c.csv"),

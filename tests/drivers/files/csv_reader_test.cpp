@@ -10,7 +10,7 @@ using Cells = std::vector<std::string>;
 TEST(CsvReader, ReadsCellsAndQuotations) {
   CsvReader csv(
       "\xEF\xBB\xBF"
-      "a,b\r\n\r\n1,\n\"x,\"\"y\"\"\",2,\n",
+      "a,b\r\n\r\n1,\n\"x,\"\"y\"\"\",2\n",
       "f.csv");
   Messages messages;
 
@@ -19,7 +19,7 @@ TEST(CsvReader, ReadsCellsAndQuotations) {
   EXPECT_EQ(csv.cells(), (Cells{"1", ""}));
   EXPECT_EQ(csv.place(), "f.csv:3: ");
   ASSERT_TRUE(csv.next(messages));
-  EXPECT_EQ(csv.cells(), (Cells{"x,\"y\"", "2", ""}));
+  EXPECT_EQ(csv.cells(), (Cells{"x,\"y\"", "2"}));
   EXPECT_FALSE(csv.next(messages));
   EXPECT_EQ(messages, Messages{});
 }
@@ -35,6 +35,51 @@ TEST(CsvReader, AcceptsAppendedColumnsOnly) {
   EXPECT_EQ(messages,
             (Messages{"f:1: wrong header, expected a,b", "f:1: wrong header, expected a,b",
                       "f:1: the header is missing, expected a,b"}));
+}
+
+TEST(CsvReader, TellsLinesWithOtherCellsThanTheHeaderAndGoesOn) {
+  CsvReader csv("a,b\n1\n1,2\n1,000,2\n\"1,000\",2\n,,\n3,4,\n", "f");
+  Messages messages;
+
+  ASSERT_TRUE(csv.read_header({"a"}, messages));
+  ASSERT_TRUE(csv.next(messages));
+  EXPECT_EQ(csv.cells(), (Cells{"1", "2"}));
+  ASSERT_TRUE(csv.next(messages));
+  EXPECT_EQ(csv.cells(), (Cells{"1,000", "2"}));
+  EXPECT_FALSE(csv.next(messages));
+
+  EXPECT_EQ(messages, (Messages{"f:2: 1 cells, expected 2", "f:4: 3 cells, expected 2",
+                                "f:6: 3 cells, expected 2", "f:7: 3 cells, expected 2"}));
+}
+
+TEST(CsvReader, LetsTheLastColumnTakeTheRestWhereAskedFor) {
+  Messages messages;
+  CsvReader csv("a,b,c\n1,2,3,\"4,5\",\n1,2\n1\n", "f");
+
+  ASSERT_TRUE(csv.read_header({"a", "b", "c"}, messages, CsvReader::LastColumn::kRest));
+  ASSERT_TRUE(csv.next(messages));
+  EXPECT_EQ(csv.cells(), (Cells{"1", "2", "3,4,5,"}));
+  ASSERT_TRUE(csv.next(messages));
+  EXPECT_EQ(csv.cells(), (Cells{"1", "2", ""}));
+  EXPECT_FALSE(csv.next(messages));
+  EXPECT_EQ(messages, Messages{"f:4: 1 cells, expected 3"});
+
+  // With a column behind it only quotation marks keep them apart.
+  messages.clear();
+  CsvReader longer("a,b,c\n1,2\n1,2,3,4\n", "f");
+  ASSERT_TRUE(longer.read_header({"a", "b"}, messages, CsvReader::LastColumn::kRest));
+  EXPECT_FALSE(longer.next(messages));
+  EXPECT_EQ(messages, (Messages{"f:2: 2 cells, expected 3", "f:3: 4 cells, expected 3"}));
+}
+
+TEST(CsvReader, FindsColumnsByName) {
+  Messages messages;
+  CsvReader csv("a,b,c\n", "f");
+
+  ASSERT_TRUE(csv.read_header({"a"}, messages));
+
+  EXPECT_EQ(csv.find_column("c"), 2U);
+  EXPECT_FALSE(csv.find_column("d").has_value());
 }
 
 TEST(CsvReader, TellsBrokenQuotationsAndGoesOn) {

@@ -29,6 +29,27 @@ constexpr std::string_view kFourBits =
     "89504e470d0a1a0a0000000d494844520000000200000001040000000014b9cd570000000a494441"
     "54789c63b00700004100408d6ed5130000000049454e44ae426082";
 
+// 3 x 3, 8-bit grey 10 20 ... 90, interlaced by Adam7.
+constexpr std::string_view kInterlaced =
+    "89504e470d0a1a0a0000000d49484452000000030000000308000000010444daf500000017494441"
+    "5478da63e0629063708b6210610860d030b201000b1d01c3f1e7f5cf0000000049454e44ae426082";
+// 2 x 1, 8-bit grey with alpha: 10 (transparent), 200.
+constexpr std::string_view kAlpha =
+    "89504e470d0a1a0a0000000d49484452000000020000000108040000005e2bb7010000000d494441"
+    "5478da63e06238f11f0002bc01d2e9e0ec590000000049454e44ae426082";
+// 2 x 1 from a palette of greys 30 (transparent by tRNS) and 90.
+constexpr std::string_view kPalette =
+    "89504e470d0a1a0a0000000d4948445200000002000000010803000000c3fc8fb800000006504c54"
+    "451e1e1e5a5a5a596c75390000000174524e530040e6d8660000000b4944415478da636060040000"
+    "0400022cde48ad0000000049454e44ae426082";
+// Its header says 2 x 1, its data have a second line; and 2 x 2 with one line.
+constexpr std::string_view kLineTooMany =
+    "89504e470d0a1a0a0000000d4948445200000002000000010800000000d14920560000000e494441"
+    "5478da6360646260660100001d000b10dd1c700000000049454e44ae426082";
+constexpr std::string_view kLineTooFew =
+    "89504e470d0a1a0a0000000d494844520000000200000002080000000057dd52f80000000b494441"
+    "5478da636064020000070004e5ed94cf0000000049454e44ae426082";
+
 std::string from_hex(std::string_view hex) {
   std::string bytes;
   for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
@@ -83,15 +104,19 @@ TEST(ReadGreyPicture, ExpandsFewerBits) {
   EXPECT_EQ(picture.pixels, (Pixels{51, 255}));
 }
 
-TEST(ReadGreyPicture, ReadsPgmWithComments) {
+TEST(ReadGreyPicture, TakesEachFormOfPngAsItStands) {
   GreyPicture picture;
   std::string message;
 
-  ASSERT_TRUE(read("P5 # a comment\n# another\n3 1\n255\n\x01\n\xFE", picture, message)) << message;
-
-  EXPECT_EQ(picture.width_px, 3);
-  EXPECT_EQ(picture.height_px, 1);
-  EXPECT_EQ(picture.pixels, (Pixels{1, 10, 254}));
+  ASSERT_TRUE(read(from_hex(kInterlaced), picture, message)) << message;
+  EXPECT_EQ(picture.pixels, (Pixels{10, 20, 30, 40, 50, 60, 70, 80, 90}));
+  ASSERT_TRUE(read(from_hex(kAlpha), picture, message)) << message;
+  EXPECT_EQ(picture.pixels, (Pixels{10, 200}));
+  ASSERT_TRUE(read(from_hex(kPalette), picture, message)) << message;
+  EXPECT_EQ(picture.pixels, (Pixels{30, 90}));
+  // Each chunk says its length: what stands behind the last one cannot shift the picture.
+  ASSERT_TRUE(read(from_hex(kAlpha) + "behind", picture, message)) << message;
+  EXPECT_EQ(picture.pixels, (Pixels{10, 200}));
 }
 
 TEST(ReadGreyPicture, TellsWhatItDoesNotServe) {
@@ -112,10 +137,11 @@ TEST(ReadGreyPicture, TellsDamage) {
             "damaged PNG: the file ends early");
   EXPECT_EQ(why(whole.substr(0, 20), core::Error::kInvalidArgument),
             "damaged PNG: the file ends early");
+  for (const std::string_view lines : {kLineTooMany, kLineTooFew}) {
+    EXPECT_TRUE(why(from_hex(lines), core::Error::kInvalidArgument).starts_with("damaged PNG: "));
+  }
   EXPECT_EQ(why("P5 2 2 255\nabc", core::Error::kInvalidArgument),
-            "damaged PGM: the file ends early");
-  EXPECT_EQ(why("P5 2 x 255\nabc", core::Error::kInvalidArgument),
-            "damaged PGM: expected P5, width, height and largest value");
+            "damaged PGM: the file ends early, expected 1 byte more of the picture's 4");
 }
 
 TEST(ReadGreyPicture, NamesTheFile) {

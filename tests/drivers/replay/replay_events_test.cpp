@@ -94,6 +94,72 @@ TEST(ReplayEvents, TakesUnquotedCommasInTheLastColumn) {
   EXPECT_FALSE(events.parse("field,time_s,kind,values,who\n0,0,claim,40,60\n", "a", messages));
 }
 
+TEST(ReplayEvents, ReadsTheAppendedColumns) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+
+  ASSERT_TRUE(events.parse(
+      "field,time_s,kind,values,id,seen_field,confirm\n"
+      "5,0.1,start,\"1,2,3,4;1,3,5,6;2,2,7,8\",77,3,1\n5,,start,\"1,2,3,4;1,3,5,6;2,2,7,8\",,,0\n"
+      "5,0.123456789,pick,\"1,2\",-1,5,\n5,,pose,,,,\n",
+      "e", messages))
+      << messages.front();
+  events.take_before(5, list);
+
+  ASSERT_EQ(list.size(), 4);
+  EXPECT_EQ(list[0].id, 77);
+  EXPECT_EQ(list[0].at, core::FieldTime(100'000'000));
+  EXPECT_EQ(tests::content_of<core::Start>(list[0]).seen_field, 3);
+  EXPECT_TRUE(tests::content_of<core::Start>(list[0]).confirmed);
+  EXPECT_EQ(list[1].id, 2) << "numbered by its place";
+  EXPECT_FALSE(list[1].at.has_value());
+  EXPECT_FALSE(tests::content_of<core::Start>(list[1]).seen_field.has_value());
+  EXPECT_FALSE(tests::content_of<core::Start>(list[1]).confirmed);
+  EXPECT_EQ(list[2].id, -1);
+  EXPECT_EQ(list[2].at, core::FieldTime(123'456'789));
+  EXPECT_EQ(tests::content_of<core::Pick>(list[2]).seen_field, 5);
+  EXPECT_EQ(list[3].id, 4);
+}
+
+TEST(ReplayEvents, NumbersTheEventsOfAnOldFile) {
+  ReplayEvents events;
+  Messages messages;
+  core::EventList list;
+
+  ASSERT_TRUE(events.parse(kHeader + "5,0.25,pose,\n6,,claim,1,2\n", "e", messages));
+  events.take_before(6, list);
+
+  ASSERT_EQ(list.size(), 2);
+  EXPECT_EQ(list[0].id, 1);
+  EXPECT_EQ(list[0].at, core::FieldTime(250'000'000));
+  EXPECT_EQ(list[1].id, 2);
+}
+
+TEST(ReplayEvents, TellsWrongCellsOfTheAppendedColumns) {
+  ReplayEvents events;
+  Messages messages;
+
+  EXPECT_FALSE(
+      events.parse("field,time_s,kind,values,id,seen_field,confirm\n"
+                   "5,,pick,\"1,2\",x,6,1\n5,5000000000,start,\"1,2,3,4;1,3,5,6;2,2,7,8\",,-1,yes\n"
+                   "5,,claim,\"1,2\",,5,\n5,,pose,,\n",
+                   "e", messages));
+
+  EXPECT_EQ(
+      messages,
+      (Messages{"e:2: id: 'x', expected a whole number, or nothing",
+                "e:2: seen_field: '6', expected a whole number from 0 to the row's field, or "
+                "nothing",
+                "e:2: confirm: '1', expected nothing for pick",
+                "e:3: time_s: '5000000000', expected at most 4000000000 s to either side of "
+                "zero, or nothing",
+                "e:3: seen_field: '-1', expected a whole number from 0 to the row's field, "
+                "or nothing",
+                "e:3: confirm: 'yes', expected 1, 0 or nothing",
+                "e:4: seen_field: '5', expected nothing for claim", "e:5: 5 cells, expected 7"}));
+}
+
 TEST(ReplayEvents, HandsRowsBetweenFieldsToTheNext) {
   ReplayEvents events;
   Messages messages;

@@ -138,6 +138,25 @@ TEST(ReplayFrameGrabber, TakesWhatTheMetaFileSays) {
   EXPECT_EQ(grabber.grab_for(kTimeout).error(), Error::kEndOfData);
 }
 
+TEST(ReplayFrameGrabber, DeliversNoPixelsOfAMissingField) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.y4m", recording_text(kHeader, 1, 12));
+  folder.write("a.meta.csv",
+               "field,sequence,time_s,status,lamp_permille\n0,65535,0,good,\n1,,0.02,missing,\n");
+  ReplayFrameGrabber grabber(camera_of(4, 3, Scan::kEvenFirst), path);
+
+  ASSERT_TRUE(grabber.start());
+  expect_field(grabber, {0, Parity::kEven, 0, 2});
+  const auto missing = grabber.grab_for(kTimeout);
+
+  ASSERT_TRUE(missing);
+  EXPECT_EQ(missing->field().status, core::FieldStatus::kMissing);
+  EXPECT_EQ(missing->field().pixels.pixels, nullptr);
+  EXPECT_EQ(missing->field().pixels.lines, 0);
+  EXPECT_EQ(missing->field().parity, Parity::kOdd);
+  EXPECT_EQ(missing->field().mid_exposure.count(), 20'000'000);
+}
+
 TEST(ReplayFrameGrabber, WantsAMetaRowForEachFieldAndNoOthers) {
   const TemporaryFolder folder;
   const std::string path = folder.write("a.y4m", recording_text(kHeader, 1, 12));

@@ -21,27 +21,27 @@ TEST(EventRows, AreReadBackByReplay) {
     ASSERT_TRUE(start.tubes.try_push_back(point));
   }
   event.content = start;
-  append_event_row(text, 0, core::FieldTime(0), event);
+  append_event_row(text, 0, event);
   event.content = core::Claim{{-3, 61}};
-  append_event_row(text, 12, core::FieldTime(200'000'000), event);
+  append_event_row(text, 12, event);
   event.content = core::LampCommand{650};
-  append_event_row(text, 13, core::FieldTime(216'666'667), event);
+  append_event_row(text, 13, event);
   event.content = core::Pick{{100.5, 20.0}, {}};
-  append_event_row(text, 14, core::FieldTime(233'333'333), event);
+  append_event_row(text, 14, event);
   event.content = core::PoseRequest{};
-  append_event_row(text, 15, core::FieldTime(250'000'000), event);
+  append_event_row(text, 15, event);
   event.content = core::Acknowledge{};
-  append_event_row(text, 15, core::FieldTime(250'000'000), event);
+  append_event_row(text, 15, event);
   core::PoseResult pose;
   pose.reason = core::PoseReason::kMoving;
   event.content = pose;
-  append_event_row(text, 16, core::FieldTime(266'666'667), event);
+  append_event_row(text, 16, event);
   pose.reason = core::PoseReason::kNone;
   pose.position_nm = {1'524'000'001, -5, 60'000'000};
   pose.angles_ndeg = {1, 2, -3};
   pose.tubes = 17;
   event.content = pose;
-  append_event_row(text, 17, core::FieldTime(283'333'333), event);
+  append_event_row(text, 17, event);
 
   drivers::ReplayEvents events;
   drivers::Messages messages;
@@ -66,6 +66,50 @@ TEST(EventRows, AreReadBackByReplay) {
   EXPECT_EQ(back.tubes, 17);
 }
 
+TEST(EventRows, KeepIdInstantAndWhatTheClickerSaw) {
+  core::Event start;
+  start.id = 42;
+  start.origin = core::EventOrigin::kOperator;
+  start.at = core::FieldTime(1'234'567'891);
+  core::Start content;
+  for (const core::StartPoint& point :
+       {core::StartPoint{{40, 60}, {313.0, 196.25}}, core::StartPoint{{41, 60}, {321.0, 251.0}},
+        core::StartPoint{{40, 61}, {387.0, 186.0}}}) {
+    ASSERT_TRUE(content.tubes.try_push_back(point));
+  }
+  content.seen_field = 71;
+  content.confirmed = true;
+  start.content = content;
+  core::Event pick;
+  pick.content = core::Pick{{1.0, 2.0}, 0};
+  core::Event claim;
+  claim.id = -7;
+  claim.at = core::FieldTime(0);
+  claim.content = core::Claim{{1, 2}};
+  std::string text = std::string(kEventsHeader) + "\n";
+  append_event_row(text, 74, start);
+  append_event_row(text, 74, pick);
+  append_event_row(text, 75, claim);
+
+  drivers::ReplayEvents events;
+  drivers::Messages messages;
+  ASSERT_TRUE(events.parse(text, "e", messages)) << messages.front();
+  core::EventList list;
+  events.take_before(75, list);
+
+  ASSERT_EQ(list.size(), 3);
+  EXPECT_EQ(list[0].id, 42);
+  EXPECT_EQ(list[0].origin, core::EventOrigin::kOperator);
+  EXPECT_EQ(list[0].at, core::FieldTime(1'234'567'891));
+  EXPECT_EQ(tests::content_of<core::Start>(list[0]).seen_field, 71);
+  EXPECT_TRUE(tests::content_of<core::Start>(list[0]).confirmed);
+  EXPECT_EQ(list[1].id, 0);
+  EXPECT_FALSE(list[1].at.has_value());
+  EXPECT_EQ(tests::content_of<core::Pick>(list[1]).seen_field, 0);
+  EXPECT_EQ(list[2].id, -7);
+  EXPECT_EQ(list[2].at, core::FieldTime(0));
+}
+
 TEST(MetaRows, AreReadBackByReplay) {
   std::string text = std::string(kMetaHeader) + "\n";
   core::Field field;
@@ -75,17 +119,25 @@ TEST(MetaRows, AreReadBackByReplay) {
   append_meta_row(text, field);
   field.status = core::FieldStatus::kDamaged;
   field.number = 1;
+  ++field.sequence;
+  field.mid_exposure += core::FieldTime(1);
+  append_meta_row(text, field);
+  field.status = core::FieldStatus::kMissing;
+  field.number = 2;
+  field.mid_exposure += core::FieldTime(1);
   append_meta_row(text, field);
 
   drivers::ReplayMeta meta;
   drivers::Messages messages;
   ASSERT_TRUE(meta.parse(text, "m", messages)) << messages.front();
 
-  ASSERT_EQ(meta.rows().size(), 2U);
+  ASSERT_EQ(meta.rows().size(), 3U);
   EXPECT_EQ(meta.rows()[0].sequence, 1187);
   EXPECT_EQ(meta.rows()[0].time.count(), 39'566'666'667);
   EXPECT_EQ(meta.rows()[0].lamp_permille, 500);
   EXPECT_EQ(meta.rows()[1].status, core::FieldStatus::kDamaged);
+  EXPECT_EQ(meta.rows()[1].time.count(), 39'566'666'668);
+  EXPECT_EQ(meta.rows()[2].status, core::FieldStatus::kMissing);
 }
 
 }  // namespace
