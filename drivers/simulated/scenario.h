@@ -32,7 +32,7 @@ struct SimulatedLight {
   double ring = 0.0;                  ///< the camera's own LEDs, 0..1
 };
 
-/// An event and when the box is told of it.
+/// An event and when it happens; the box is told of it with the first field from then on.
 struct ScenarioEvent {
   double at_s = 0.0;
   core::Event event;

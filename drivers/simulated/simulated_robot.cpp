@@ -69,6 +69,7 @@ Result<void> SimulatedRobot::configure(const SimulatedRobotSettings& settings,
   next_claim_s_ = settings.claim_period_s;
   stuck_ = false;
   messages_.clear();
+  last_id_ = 0;
   heard_ = {};
   return {};
 }
@@ -213,6 +214,21 @@ std::optional<Event> SimulatedRobot::take_message() {
   }
   messages_.truncate(messages_.size() - 1);
   return first;
+}
+
+bool SimulatedRobot::say(const Event& event) {
+  Event message = event;
+  if (message.id == 0) {
+    message.id = last_id_ + 1;
+  }
+  if (!message.at && now_s_ >= 0.0) {  // before time 0 there is no clock to tell an instant by
+    message.at = instant_of(now_s_);
+  }
+  if (!messages_.try_push_back(message)) {
+    return false;
+  }
+  last_id_ = message.id;
+  return true;
 }
 
 void SimulatedRobot::hear(const Reply& reply) {

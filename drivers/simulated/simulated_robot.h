@@ -54,7 +54,8 @@ class SimulatedRobot final : public ToolMotion {
   [[nodiscard]] core::Result<void> add(const core::kinematics::PathSegment& segment);
 
   /// Sends a message to the box; false when kMaxMessages are waiting, and it is not sent.
-  bool say(const core::Event& event) { return messages_.try_push_back(event); }
+  /// Messages without an id or an instant of their own get the next number and the robot's time.
+  bool say(const core::Event& event);
 
   /// The tool's true place; turns the joints to that instant. An earlier instant than the last is
   /// answered without turning back. Where the arm can't follow, it stays: see stuck().
@@ -119,6 +120,7 @@ class SimulatedRobot final : public ToolMotion {
   double next_claim_s_ = 0.0;
   bool stuck_ = false;
   core::StaticVector<core::Event, kMaxMessages> messages_;
+  std::int64_t last_id_ = 0;
   Heard heard_;
 };
 

@@ -148,6 +148,23 @@ core::ImageView SimulatedWorld::frame() const {
   return {frame_.data(), camera.width_px, camera.height_px, camera.width_px};
 }
 
+namespace {
+
+/// A scenario's event with the instant at which it happens, and its place in the scenario as its
+/// id.
+core::Event told(const ScenarioEvent& scripted, std::size_t place) {
+  core::Event event = scripted.event;
+  if (!event.at) {
+    event.at = instant_of(scripted.at_s);
+  }
+  if (event.id == 0) {
+    event.id = static_cast<std::int64_t>(place) + 1;
+  }
+  return event;
+}
+
+}  // namespace
+
 void SimulatedWorld::take_events(double time_s, core::EventList& events) {
   const core::StartSettings& start = scenario_->told.start;
   if (!started_ && !start.tubes.empty()) {
@@ -160,7 +177,7 @@ void SimulatedWorld::take_events(double time_s, core::EventList& events) {
   const auto& all = scenario_->events;
   // What does not fit is handed over before the next field.
   while (events_taken_ < all.size() && all[events_taken_].at_s <= time_s + 1e-9 &&
-         events.try_push_back(all[events_taken_].event)) {
+         events.try_push_back(told(all[events_taken_], events_taken_))) {
     ++events_taken_;
   }
   while (robot_ != nullptr && motion_ == robot_.get() && !events.full()) {

@@ -1,9 +1,17 @@
 #pragma once
 
+#include <cmath>
+
+#include "core/base/field.h"
 #include "core/base/frames.h"
 #include "core/base/transform.h"
 
 namespace tubesight::drivers {
+
+/// The instant of a scenario's second, to the nanosecond.
+[[nodiscard]] inline core::FieldTime instant_of(double seconds) {
+  return core::FieldTime(std::llround(seconds * 1e9));
+}
 
 /// Moves the tool in place of a scenario's path: a simulated robot.
 class ToolMotion {

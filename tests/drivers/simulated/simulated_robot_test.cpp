@@ -107,6 +107,8 @@ TEST_F(SimulatedRobotTest, ClaimsAtItsOwnRate) {
   for (int i = 0; i <= 300; ++i) {  // 5 s of fields
     static_cast<void>(robot_->pose_at(i / 60.0));
     while (const auto message = robot_->take_message()) {
+      EXPECT_EQ(message->id, claims + 1);
+      EXPECT_NEAR(static_cast<double>(message->at->count()), i / 60.0 * 1e9, 1.0);
       EXPECT_EQ(tests::content_of<core::Claim>(*message).tube, (TubeAddress{40, 60}));
       ++claims;
     }

@@ -376,6 +376,8 @@ TEST(Faults, EventsOfALostFieldReachTheNext) {
   EXPECT_EQ(field.slot, 7);
   ASSERT_EQ(field.events.size(), 1);
   EXPECT_EQ(tests::content_of<core::Claim>(field.events[0]).tube, (core::TubeAddress{40, 60}));
+  EXPECT_EQ(field.events[0].at, std::chrono::milliseconds(95)) << "its own instant";
+  EXPECT_EQ(field.events[0].id, 1);
 }
 
 TEST(Faults, NextSlotTellsOfLostFieldsToo) {
