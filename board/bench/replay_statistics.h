@@ -12,6 +12,7 @@
 #include "core/base/reply.h"
 #include "core/base/sighting.h"
 #include "core/base/tube_address.h"
+#include "core/base/words.h"
 #include "core/session/session.h"
 #include "core/tracking/start.h"
 
@@ -44,8 +45,7 @@ class ReplayStatistics {
   };
 
   static constexpr std::size_t kStates = 4;
-  static constexpr std::size_t kReasons =
-      std::size_t{1} + static_cast<std::size_t>(core::Reason::kArithmetic);
+  static constexpr std::size_t kReasons = static_cast<std::size_t>(core::count_of<core::Reason>());
 
   /// Takes what step() left for a field.
   void add(const core::session::Output& output);

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <string_view>
 
-#include "board/bench/words.h"
 #include "core/base/names.h"
 
 namespace tubesight::board {
@@ -63,7 +62,7 @@ void print_states(std::string& out, const ReplayStatistics& statistics) {
       const Share& because = statistics.degraded(reason);
       if (because.fields > 0) {
         print(out, "    %.3f s %s: %s\n", seconds(because.time), c_str(core::name_of(reason)),
-              c_str(explain(reason)));
+              c_str(core::explain(reason)));
       }
     }
   }
@@ -72,7 +71,7 @@ void print_states(std::string& out, const ReplayStatistics& statistics) {
 void print_losses(std::string& out, const ReplayStatistics& statistics) {
   for (const auto& loss : statistics.losses()) {
     print(out, "  lost at %.3f s for %.3f s: %s: %s\n", seconds(loss.at), seconds(loss.lasted),
-          c_str(core::name_of(loss.reason)), c_str(explain(loss.reason)));
+          c_str(core::name_of(loss.reason)), c_str(core::explain(loss.reason)));
   }
 }
 
@@ -85,7 +84,7 @@ void print_starts(std::string& out, const ReplayStatistics& statistics) {
       print(out, "  start at %.3f s taken\n", seconds(start.at));
     } else {
       print(out, "  start at %.3f s refused: %s: %s\n", seconds(start.at),
-            c_str(name_of(start.refusal)), c_str(explain(start.refusal)));
+            c_str(core::name_of(start.refusal)), c_str(core::explain(start.refusal)));
     }
   }
 }
@@ -121,7 +120,7 @@ void print_poses(std::string& out, const ReplayStatistics& statistics) {
     const core::PoseResult& r = pose.result;
     if (r.reason != core::PoseReason::kNone) {
       print(out, "  pose at %.3f s refused: %s: %s\n", seconds(pose.at),
-            c_str(core::name_of(r.reason)), c_str(explain(r.reason)));
+            c_str(core::name_of(r.reason)), c_str(core::explain(r.reason)));
       continue;
     }
     const auto mm = [&](std::int64_t nanometres) {

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "core/base/field.h"
-#include "core/base/pose_result.h"
 #include "core/base/sighting.h"
+#include "core/base/words.h"
 
 namespace tubesight::core {
 
@@ -29,38 +29,12 @@ namespace tubesight::core {
   return "";
 }
 
-/// The one word of a reason in files; empty for kNone.
-[[nodiscard]] constexpr std::string_view name_of(Reason reason) {
-  switch (reason) {
-    case Reason::kNone: return "";
-    case Reason::kNoStart: return "no-start";
-    case Reason::kStartRefused: return "start-refused";
-    case Reason::kFewTubes: return "few-tubes";
-    case Reason::kDark: return "dark";
-    case Reason::kWashedOut: return "washed-out";
-    case Reason::kNoTubes: return "no-tubes";
-    case Reason::kDamagedField: return "damaged-field";
-    case Reason::kUncertain: return "uncertain";
-    case Reason::kCoasted: return "coasted";
-    case Reason::kJump: return "jump";
-    case Reason::kSpeed: return "speed";
-    case Reason::kGap: return "gap";
-    case Reason::kTime: return "time";
-    case Reason::kArithmetic: return "arithmetic";
-  }
-  return "";
-}
-
-/// The one word of a pose request's refusal in files; empty for kNone.
-[[nodiscard]] constexpr std::string_view name_of(PoseReason reason) {
-  switch (reason) {
-    case PoseReason::kNone: return "";
-    case PoseReason::kNotTracking: return "not-tracking";
-    case PoseReason::kMoving: return "moving";
-    case PoseReason::kBusy: return "busy";
-    case PoseReason::kPicture: return "picture";
-    case PoseReason::kWeak: return "weak";
-    case PoseReason::kEnded: return "ended";
+/// The word of a liveness in files: `unknown`, `proved`, `failed`.
+[[nodiscard]] constexpr std::string_view name_of(Liveness liveness) {
+  switch (liveness) {
+    case Liveness::kUnknown: return "unknown";
+    case Liveness::kProved: return "proved";
+    case Liveness::kFailed: return "failed";
   }
   return "";
 }

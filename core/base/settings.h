@@ -85,9 +85,11 @@ struct EdgeSettings {
   std::int32_t region_threshold = 60;    ///< mean grey value of the 16-pixel cross-hair
 };
 
-/// The alignment gate; the table `[verification]`.
+/// The alignment gate and the instants of claims; the table `[verification]`.
 struct VerificationSettings {
   double aligned_within_mm = 2.5;
+  double claim_within_s = 0.05;  ///< longest way in time from a claim to the field it is judged by
+  double claim_oldest_s = 0.25;  ///< age beyond which a claim is answered "unknown"
 };
 
 /// Everything that a session is started with. About 260 KB: static or heap, never on a stack.

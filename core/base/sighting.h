@@ -33,6 +33,14 @@ enum class Reason : std::uint8_t {
   kGap,           ///< lost: too many fields are missing
   kTime,          ///< lost: time ran backwards
   kArithmetic,    ///< lost: a number left the range of the fixed-point format
+  kNoField,       ///< coasting: no field came in time
+};
+
+/// Whether the picture is known to be live; the column `liveness`.
+enum class Liveness : std::uint8_t {
+  kUnknown,  ///< nothing has shown it
+  kProved,   ///< the picture follows what the box does to the lamp
+  kFailed,   ///< it does not
 };
 
 /// A position in full-frame pixels, in 1/65536 px: the same bits on every machine.
@@ -45,7 +53,14 @@ struct ImagePoint {
 ///
 /// Numbers are integers of stated scale, so that files printed from them agree to the byte.
 struct Sighting {
-  FieldTime time{0};
+  FieldTime time{0};        ///< mid-exposure; of a missing field, when it was given up
+  std::int64_t field = -1;  ///< number of the field
+  FieldStatus status = FieldStatus::kMissing;
+  bool judged = false;  ///< tube-ends of this very field were measured and believed
+  /// Fields judged since the session began. It grows with them alone: whoever sees it stand still
+  /// for two field times knows that the box sees nothing new, whatever else it says.
+  std::int64_t judged_fields = 0;
+  FieldTime age{0};  ///< since the field that was judged last; 0 before the first
   TrackState state = TrackState::kWaiting;
   Reason reason = Reason::kNoStart;
   std::int32_t tracked = 0;  ///< tube-ends measured in this field and used
@@ -62,13 +77,17 @@ struct Sighting {
   TubeAddress tool{};             ///< the tube nearest to the guidetube's axis
   ImagePoint tool_px{};           ///< image of that tube's centre
   std::int32_t offset_um_q8 = 0;  ///< its distance from the axis, 1/256 um
-  bool aligned = false;           ///< the box vouches for `tool`
+  std::array<std::int32_t, 2> displacement_um_q8{};  ///< from its centre to the axis, sheet x, y
+  bool aligned = false;                              ///< the box vouches for `tool`
 
   bool velocity_known = false;
   std::array<std::int32_t, 2> velocity_um_s{};  ///< of the axis over the sheet, sheet x and y
 
   bool margin_known = false;
   std::int32_t margin_permyriad = 0;  ///< distance from the rounding limit in sigma, 1/10000
+
+  std::int32_t residual_px_q16 = 0;  ///< RMS of the tube-ends used, 1/65536 px; valid when judged
+  Liveness liveness = Liveness::kUnknown;
 };
 
 /// Everything known about one measured tube-end; a row of `--centers`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/words.h"
 #include "core/overlay/font.h"
 #include "core/overlay/palette.h"
 #include "core/overlay/text_line.h"
@@ -167,7 +168,7 @@ void draw_left(Painter& painter, Column full, std::int32_t top, const Layout& la
   const Rgb colour = state_colour(sighting.state);
   put_chip(painter, line, top + layout.text_bottom, state_words(sighting.state), layout.text_scale,
            colour);
-  put_shrinking(painter, line, top + layout.text_bottom, reason_words(sighting.reason),
+  put_shrinking(painter, line, top + layout.text_bottom, words_of(sighting.reason).mark,
                 layout.text_scale, colour);
 }
 
@@ -251,27 +252,6 @@ std::string_view state_words(TrackState state) {
     case TrackState::kWaiting: break;
   }
   return "WAITING";
-}
-
-std::string_view reason_words(Reason reason) {
-  switch (reason) {
-    case Reason::kNone: return "";
-    case Reason::kNoStart: return "for start";
-    case Reason::kStartRefused: return "start refused";
-    case Reason::kFewTubes: return "few tube-ends";
-    case Reason::kDark: return "too dark";
-    case Reason::kWashedOut: return "too bright";
-    case Reason::kNoTubes: return "no tube-ends";
-    case Reason::kDamagedField: return "damaged field";
-    case Reason::kUncertain: return "uncertain";
-    case Reason::kCoasted: return "blind too long";
-    case Reason::kJump: return "picture jumped";
-    case Reason::kSpeed: return "too fast";
-    case Reason::kGap: return "fields missing";
-    case Reason::kTime: return "time ran back";
-    case Reason::kArithmetic: return "out of range";
-  }
-  return "";
 }
 
 }  // namespace tubesight::core::overlay

@@ -26,7 +26,4 @@ void draw_readout(Painter& painter, const Sighting& sighting, std::optional<std:
 /// The state as the operator reads it, in capitals.
 [[nodiscard]] std::string_view state_words(TrackState state);
 
-/// The reason as the operator reads it; empty for kNone.
-[[nodiscard]] std::string_view reason_words(Reason reason);
-
 }  // namespace tubesight::core::overlay

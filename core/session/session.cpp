@@ -2,108 +2,107 @@
 
 #include "core/base/instantiate.h"
 #include "core/tracking/tracking_setup.h"
+#include "core/verification/pick_judge.h"
 
 namespace tubesight::core::session {
 namespace {
 
-ClaimReply answer_claim(const Claim& claim, const Sighting& sighting) {
-  ClaimReply reply;
-  reply.claimed = claim.tube;
-  if (sighting.aligned) {
-    reply.tube = sighting.tool;
-    reply.verdict =
-        claim.tube == sighting.tool ? ClaimVerdict::kConfirmed : ClaimVerdict::kContradicted;
-  }
-  return reply;
-}
-
-template <Scalar S>
-PickReply answer_pick(const Pick& pick, const tracking::Tracker<S>& tracker) {
-  PickReply reply;
-  if (!tracker.identify(tracking::make_image_point(pick.at_px), reply.tube)) {
-    reply.doubt = PickDoubt::kNotTracking;
-  }
-  return reply;
-}
-
-// A tool that moves faster than this shows it between two pictures of an average.
-constexpr std::int32_t kAtRest_um_s = 5000;
-
-bool is_moving(const Sighting& sighting) {
-  const auto fast = [](std::int32_t speed) {
-    return speed > kAtRest_um_s || speed < -kAtRest_um_s;
-  };
-  return sighting.velocity_known &&
-         (fast(sighting.velocity_um_s[0]) || fast(sighting.velocity_um_s[1]));
-}
-
-PoseReply answer_pose_result(const PoseResult& pose, const Sighting& sighting) {
-  PoseReply reply{PoseVerdict::kRefused, {}, pose};
-  if (pose.reason == PoseReason::kNone) {
-    reply.verdict = PoseVerdict::kUnknown;
-    if (sighting.tool_known) {
-      reply.tube = sighting.tool;
-      reply.verdict =
-          pose.nearest == sighting.tool ? PoseVerdict::kConfirmed : PoseVerdict::kContradicted;
-    }
-  }
-  return reply;
+constexpr bool knows_place(TrackState state) {
+  return state == TrackState::kTracking || state == TrackState::kDegraded;
 }
 
 }  // namespace
 
 template <Scalar S>
-PoseRequestReply Session<S>::answer_pose_request(const Event& event, Output& output) {
-  if (pose_awaited_ > 0) {
-    return {PoseReason::kBusy};
+void Session<S>::step(const Input& input, Output& output) {
+  output.replies.clear();
+  output.lamp_permille = lamp_wanted_.value_or(input.field.lamp_permille);
+  output.order.wanted = false;
+  output.order.tubes.clear();
+  poses_.age();
+  starts_.look(input.field, knows_place(state_));
+  take_starts(input.events);
+  tracker_.step(input.field, output.sighting, output.tubes);
+  remember(output.sighting);
+  claims_.answer_waiting(recent_, output.replies);
+  std::int32_t start = 0;
+  for (const Event& event : input.events) {
+    answer(event, input, start, output);
   }
-  if (output.sighting.state != TrackState::kTracking) {
-    return {PoseReason::kNotTracking};
-  }
-  if (is_moving(output.sighting)) {
-    return {PoseReason::kMoving};
-  }
-  for (const TubeSighting& tube : output.tubes) {
-    if (!tube.plug && tube.quality_permyriad > 0) {
-      static_cast<void>(output.order.tubes.try_push_back({tube.address, tube.center_px}));
+}
+
+// The last of several starts before one field is the one that counts; each gets its own answer.
+template <Scalar S>
+void Session<S>::take_starts(const EventList& events) {
+  start_refusals_.clear();
+  const Start* last = nullptr;
+  for (const Event& event : events) {
+    if (const auto* const start = content_if<Start>(event)) {
+      if (last != nullptr) {
+        static_cast<void>(start_refusals_.try_push_back(StartRefusal::kSuperseded));
+      }
+      last = start;
     }
   }
-  output.order.wanted = true;
-  output.order.id = event.id;
-  output.order.origin = event.origin;
-  pose_awaited_ = kPoseRequestLasts;
-  return {PoseReason::kNone};
+  if (last == nullptr) {
+    return;
+  }
+  const StartRefusal refusal = starts_.judge(*last);
+  static_cast<void>(start_refusals_.try_push_back(refusal));
+  if (refusal == StartRefusal::kNone) {
+    tracker_.request_start(tracking::make_start_clicks(last->tubes));
+  }
+}
+
+// The count of judged fields and the age are the session's, whatever happens to the track.
+template <Scalar S>
+void Session<S>::remember(Sighting& sighting) {
+  state_ = sighting.state;
+  if (sighting.judged) {
+    ++judged_fields_;
+    last_judged_ = sighting.time;
+  }
+  sighting.judged_fields = judged_fields_;
+  sighting.age = judged_fields_ > 0 ? sighting.time - last_judged_ : FieldTime(0);
+  const verification::RecentField<S> field{sighting, tracker_.shown()};
+  recent_.push(field);
+  starts_.follow(field);
 }
 
 template <Scalar S>
-void Session<S>::step(const Input& input, Output& output) {
-  output.replies.clear();
-  output.lamp_permille = input.field.lamp_permille;
-  output.order.wanted = false;
-  output.order.tubes.clear();
-  pose_awaited_ = pose_awaited_ > 0 ? pose_awaited_ - 1 : 0;
-  for (const Event& event : input.events) {
-    if (const auto* const start = content_if<Start>(event)) {
-      tracker_.request_start(tracking::make_start_clicks(start->tubes));
-    }
-  }
-  tracker_.step(input.field, output.sighting, output.tubes);
-  for (const Event& event : input.events) {
-    Reply reply{event.id, event.origin, input.field.mid_exposure, NotServedReply{}};
-    std::visit(
-        Overloaded{
-            [&](const Claim& claim) { reply.content = answer_claim(claim, output.sighting); },
-            [&](const Start&) { reply.content = StartReply{tracker_.start_refusal()}; },
-            [&](const Pick& pick) { reply.content = answer_pick<S>(pick, tracker_); },
-            [&](const PoseRequest&) { reply.content = answer_pose_request(event, output); },
-            [&](const PoseResult& pose) {
-              pose_awaited_ = 0;
-              reply.content = answer_pose_result(pose, output.sighting);
-            },
-            [](const LampCommand&) {}, [](const Acknowledge&) {}},
-        event.content);
-    static_cast<void>(output.replies.try_push_back(reply));
-  }
+void Session<S>::answer(const Event& event, const Input& input, std::int32_t& start,
+                        Output& output) {
+  const auto reply = [&](const auto& content) {
+    static_cast<void>(
+        output.replies.try_push_back({event.id, event.origin, input.field.mid_exposure, content}));
+  };
+  std::visit(
+      Overloaded{[&](const Claim& claim) { claims_.take(event, claim, recent_, output.replies); },
+                 [&](const Start&) {
+                   StartRefusal refusal = start_refusals_[start++];
+                   if (refusal == StartRefusal::kNone) {
+                     refusal = tracker_.start_refusal();
+                   }
+                   reply(StartReply{refusal});
+                 },
+                 [&](const Pick& pick) {
+                   reply(verification::judge_pick<S>(pick, recent_, model_, map_));
+                 },
+                 [&](const PoseRequest&) {
+                   reply(poses_.take(event, output.sighting, output.tubes, output.order));
+                 },
+                 [&](const PoseResult& pose) { reply(poses_.judge(pose, output.sighting)); },
+                 [&](const LampCommand& command) {
+                   if (!input.lamp_dimmed) {
+                     reply(NotServedReply{});
+                     return;
+                   }
+                   lamp_wanted_ = command.permille;
+                   output.lamp_permille = command.permille;
+                   reply(LampReply{command.permille});
+                 },
+                 [&](const Acknowledge&) { reply(NotServedReply{}); }},
+      event.content);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(Session)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/base/event.h"
 #include "core/base/field.h"
@@ -10,13 +11,18 @@
 #include "core/base/settings.h"
 #include "core/base/sighting.h"
 #include "core/tracking/tracker.h"
+#include "core/verification/claim_judge.h"
+#include "core/verification/pose_requests.h"
+#include "core/verification/recent_fields.h"
+#include "core/verification/start_judge.h"
 
 namespace tubesight::core::session {
 
 /// What one step is given.
 struct Input {
   Field field;
-  EventList events;  ///< since the last field, in time order
+  EventList events;          ///< since the last field, in time order
+  bool lamp_dimmed = false;  ///< somebody sets the lamp to the level wanted
 };
 
 /// What one step leaves; reused from field to field.
@@ -28,19 +34,15 @@ struct Output {
   PoseOrder order;  ///< a pose to compute, from this field's picture on
 };
 
-/// Fields that a pose request waits for its result; then another one is taken. Ten seconds of 60
-/// fields: averaging and fitting take well below one.
-inline constexpr std::int32_t kPoseRequestLasts = 600;
-
 /// The vision box without its ports: fields and events in, answers out.
 ///
 /// step() never waits, never allocates, never asks a clock, and given the same inputs leaves the
-/// same bytes on every machine in fixed point. One thread calls it. About 300 KB with the sheet's
+/// same bytes on every machine in fixed point. One thread calls it. About 400 KB with the sheet's
 /// map, of which tracking_state_bytes() are the tracking state.
 template <Scalar S>
 class Session {
  public:
-  Session() : tracker_(model_, map_) {}
+  Session() : tracker_(model_, map_), starts_(model_) {}
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
@@ -49,6 +51,13 @@ class Session {
   [[nodiscard]] Result<void> configure(const SessionSettings& settings);
 
   /// Processes one field with the events before it. Start events take effect in this field.
+  ///
+  /// A missing field (FieldStatus::kMissing) is a step as well: the track ages and coasts as with a
+  /// damaged one, and claims of that instant are answered "unknown".
+  ///
+  /// Claims are judged at their own instant (verification::ClaimJudge) and may be answered some
+  /// steps later; all other events are answered in the step that they came with. Picks and starts
+  /// are judged in the field that was seen (judge_pick(), StartJudge).
   ///
   /// A pose request that is taken leaves an order in the output; whoever computes poses hands the
   /// result to a later step as an event, so that step() never waits and a recording with its events
@@ -68,12 +77,23 @@ class Session {
   }
 
  private:
+  void take_starts(const EventList& events);
+  void remember(Sighting& sighting);
+  void answer(const Event& event, const Input& input, std::int32_t& start, Output& output);
+
   tracking::TrackingModel<S> model_{};
   tubesheet::SheetMap map_{};
-  [[nodiscard]] PoseRequestReply answer_pose_request(const Event& event, Output& output);
-
   tracking::Tracker<S> tracker_;
-  std::int32_t pose_awaited_ = 0;  ///< fields that the pending pose request has left
+  TrackState state_ = TrackState::kWaiting;
+  std::int64_t judged_fields_ = 0;
+  FieldTime last_judged_{0};
+  std::optional<std::int32_t> lamp_wanted_;  ///< what was commanded last
+
+  verification::RecentFields<S> recent_;
+  verification::ClaimJudge<S> claims_;
+  verification::StartJudge<S> starts_;
+  verification::PoseRequests poses_;
+  StaticVector<StartRefusal, kMaxEventsPerField> start_refusals_;  ///< of this field's starts
 };
 
 }  // namespace tubesight::core::session

@@ -9,6 +9,11 @@ namespace tubesight::core::session {
 template <Scalar S>
 Result<void> Session<S>::configure(const SessionSettings& settings) {
   TUBESIGHT_TRY(tracking::make_tracking_model<S>(settings, model_));
+  const double step_mm =
+      to_scaled(model_.lattice.parameters().shortest_step, 16) / 65536.0;  // of the path's numbers
+  claims_.configure(
+      verification::make_claim_limits(settings.verification, settings.motion, step_mm));
+  starts_.configure();
   return map_.assign(settings.tubesheet);
 }
 

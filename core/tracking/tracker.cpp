@@ -77,14 +77,20 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
     lose(Reason::kArithmetic);
     report(field, sighting, tubes);
   }
-  seen_time_ = field.mid_exposure;
-  seen_sequence_ = field.sequence;
+  // A missing field is no field: one that comes late after all may be older than its giving up.
+  if (field.status != FieldStatus::kMissing) {
+    seen_time_ = field.mid_exposure;
+    seen_sequence_ = field.sequence;
+  }
 }
 
 // The time since the last good field, by its stamps or by the lost sequence numbers, whichever is
 // longer: the shortest time seen for a number is what each lost one took at least.
 template <Scalar S>
 FieldTime Tracker<S>::span_since_good(const Field& field) {
+  if (field.status == FieldStatus::kMissing) {
+    return field.mid_exposure - last_time_;
+  }
   constexpr std::int64_t kMany = 1'000'000;
   const std::int64_t lost = std::clamp<std::int64_t>(field.sequence - last_sequence_, 0, kMany);
   const FieldTime told(lost * std::min<std::int64_t>(per_sequence_ns_, 1'000'000'000));
@@ -180,7 +186,8 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
 template <Scalar S>
 void Tracker<S>::follow(const Field& field) {
   using M = Mm<S>;
-  if (field.mid_exposure <= seen_time_ || field.sequence < seen_sequence_) {
+  const bool missing = field.status == FieldStatus::kMissing;
+  if (field.mid_exposure <= seen_time_ || (!missing && field.sequence < seen_sequence_)) {
     lose(Reason::kTime);
     return;
   }
@@ -212,7 +219,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const M believed = std::min(believed_mm_, reach);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
-    coast(Reason::kDamagedField, predicted, reach);
+    coast(missing ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
     return;
   }
   const Outcome outcome = observe(field.pixels, predicted, believed, false);
@@ -278,6 +285,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   deviation_mm_ = outcome.deviation_mm;
   predicted_deviation_mm_ = outcome.deviation_mm;
   picture_deviation_mm_ = outcome.picture_deviation_mm;
+  residual_px_ = outcome.fit.rms_px;
   last_time_ = field.mid_exposure;
   last_sequence_ = field.sequence;
   contradictions_ = 0;

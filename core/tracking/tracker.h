@@ -51,9 +51,9 @@ class Tracker {
   /// Image of a tube's centre after the last step(); false unless tracking and projectable.
   [[nodiscard]] bool locate(TubeAddress address, ImagePoint& pixel) const;
 
-  /// The tube at a place of the picture after the last step(): the one whose cell holds the point.
-  /// False unless tracking or where no tube stands.
-  [[nodiscard]] bool identify(const ImagePoint& pixel, TubeAddress& address) const;
+  /// How the sheet stood in the last step(): as fitted, or as predicted while coasting. Valid while
+  /// tracking or degraded.
+  [[nodiscard]] const SheetPose<S>& shown() const { return shown_; }
 
  private:
   struct Outcome {
@@ -106,6 +106,7 @@ class Tracker {
   Mm<S> deviation_mm_{};            ///< of tool_, one standard deviation
   Mm<S> picture_deviation_mm_{};    ///< of tool_, without what is systematic
   Mm<S> predicted_deviation_mm_{};  ///< of tool_shown_
+  Px<S> residual_px_{};             ///< of the tube-ends used in the last good field
   Mm<S> believed_mm_{};             ///< reach at the first field that refuted the prediction
   Mm<S> strayed_mm_{};              ///< how far it may be off besides, while coasting
   Motion<S> motion_{};

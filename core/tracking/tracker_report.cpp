@@ -30,26 +30,18 @@ bool Tracker<S>::locate(TubeAddress address, ImagePoint& pixel) const {
 }
 
 template <Scalar S>
-bool Tracker<S>::identify(const ImagePoint& pixel, TubeAddress& address) const {
-  if (state_ != TrackState::kTracking && state_ != TrackState::kDegraded) {
-    return false;
-  }
-  const auto local = to_sheet<S>(
-      *model_, shown_, {from_scaled<Px<S>>(pixel.u_q16, 16), from_scaled<Px<S>>(pixel.v_q16, 16)});
-  if (!local) {
-    return false;
-  }
-  address = model_->lattice.nearest(shown_.anchor, *local);
-  return map_->state(address) != TubeState::kAbsent;
-}
-
-template <Scalar S>
 void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const {
   sighting = {};
   tubes.clear();
   sighting.time = field.mid_exposure;
   sighting.state = state_;
   sighting.reason = reason_;
+  sighting.field = field.number;
+  sighting.status = field.status;
+  sighting.judged = measured_now_;
+  if (measured_now_) {
+    sighting.residual_px_q16 = to_scaled(residual_px_, 16);
+  }
   for (const auto& tube : record_.measured) {
     TubeSighting seen;
     seen.address = tube.address;
@@ -112,6 +104,7 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
   sighting.tool = nearest;
   const M offset = plane_length(off);
   sighting.offset_um_q8 = micrometres(offset);
+  sighting.displacement_um_q8 = {micrometres(off.x), micrometres(off.y)};
   static_cast<void>(locate(nearest, sighting.tool_px));
   sighting.aligned = measured_now_ && offset <= model_->aligned_within_mm;
 }
@@ -119,7 +112,6 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
 #define TUBESIGHT_INSTANTIATE(S)                                                      \
   template void Tracker<S>::list_estimates(CandidateList<S>&) const;                  \
   template bool Tracker<S>::locate(TubeAddress, ImagePoint&) const;                   \
-  template bool Tracker<S>::identify(const ImagePoint&, TubeAddress&) const;          \
   template void Tracker<S>::report(const Field&, Sighting&, TubeSightingList&) const; \
   template void Tracker<S>::report_tool(Sighting&) const;
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)

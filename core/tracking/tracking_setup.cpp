@@ -49,8 +49,13 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   model.max_speed_mm_s = Mm<S>(motion.max_speed_mm_s);
   model.max_acceleration_m_s2 = Mm<S>(motion.max_acceleration_mm_s2 / 1000.0);
   model.aligned_within_mm = Mm<S>(settings.verification.aligned_within_mm);
-  model.initial_threshold = settings.edges.initial_threshold;
-  model.region_threshold = settings.edges.region_threshold;
+  // Zero asks for the program's own.
+  constexpr EdgeSettings kOwn;
+  const EdgeSettings& edges = settings.edges;
+  model.initial_threshold =
+      edges.initial_threshold > 0 ? edges.initial_threshold : kOwn.initial_threshold;
+  model.region_threshold =
+      edges.region_threshold > 0 ? edges.region_threshold : kOwn.region_threshold;
   return {};
 }
 

@@ -71,6 +71,20 @@ void append_fields_row(std::string& out, std::int64_t field, core::Parity parity
   if (sighting.state != core::TrackState::kTracking) {
     out += core::name_of(sighting.reason);
   }
+  out += ',';
+  if (sighting.tool_known) {
+    append_mm(out, sighting.displacement_um_q8[0]);
+    out += ',';
+    append_mm(out, sighting.displacement_um_q8[1]);
+  } else {
+    out += ',';
+  }
+  out += ',';
+  if (sighting.judged) {
+    append_decimal(out, sighting.residual_px_q16, kQ16, 3);
+  }
+  out += ',';
+  out += core::name_of(sighting.liveness);
   out += '\n';
 }
 

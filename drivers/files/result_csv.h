@@ -12,7 +12,8 @@ namespace tubesight::drivers {
 /// First line of a `--fields` file, without the line feed.
 inline constexpr std::string_view kFieldsHeader =
     "field,frame,parity,time_s,state,tracked,primary_row,primary_column,primary_u_px,primary_v_px,"
-    "tool_row,tool_column,tool_offset_mm,tool_height_mm,aligned,margin,reason";
+    "tool_row,tool_column,tool_offset_mm,tool_height_mm,aligned,margin,reason,"
+    "tool_dx_mm,tool_dy_mm,residual_px,liveness";
 
 /// First line of a `--centers` file, without the line feed.
 inline constexpr std::string_view kCentersHeader = "field,row,column,u_px,v_px,quality";

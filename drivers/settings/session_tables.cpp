@@ -34,6 +34,7 @@ constexpr NumberRange kAcceleration{1.0, 1000000.0, " mm/s2"};
 constexpr WholeRange kInitialThreshold{0, 24 * 255};  // a sum of 24 grey values
 constexpr WholeRange kRegionThreshold{0, 255};
 constexpr NumberRange kGate{0.1, 50.0, " mm"};
+constexpr NumberRange kClaimSpan{0.001, 1.0, " s"};  // the last second of fields is kept
 constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(),
                                  std::numeric_limits<double>::max(), ""};
 
@@ -303,6 +304,8 @@ void read_edges(TableReader& table, core::EdgeSettings& edges) {
 
 void read_verification(TableReader& table, core::VerificationSettings& verification) {
   table.optional_number("aligned_within_mm", kGate, verification.aligned_within_mm);
+  table.optional_number("claim_within_s", kClaimSpan, verification.claim_within_s);
+  table.optional_number("claim_oldest_s", kClaimSpan, verification.claim_oldest_s);
 }
 
 void read_quality(TableReader& table, CalibrationQuality& quality) {

@@ -248,7 +248,7 @@ void ScenarioReading::read_expectation() {
     std::array<std::string_view, kStates.size()> states{};
     std::transform(kStates.begin(), kStates.end(), states.begin(),
                    [](core::TrackState state) { return core::name_of(state); });
-    constexpr std::size_t kReasons = static_cast<std::size_t>(core::Reason::kArithmetic) + 1;
+    constexpr std::size_t kReasons = static_cast<std::size_t>(core::count_of<core::Reason>());
     std::array<std::string_view, kReasons> reasons{};
     for (std::size_t i = 0; i < kReasons; ++i) {
       reasons[i] = core::name_of(static_cast<core::Reason>(i));

@@ -115,7 +115,9 @@ std::string session_text(const core::SessionSettings& settings) {
          line("initial_threshold", std::to_string(settings.edges.initial_threshold)) +
          line("region_threshold", std::to_string(settings.edges.region_threshold)) +
          "\n[verification]\n" +
-         line("aligned_within_mm", toml_number(settings.verification.aligned_within_mm));
+         line("aligned_within_mm", toml_number(settings.verification.aligned_within_mm)) +
+         line("claim_within_s", toml_number(settings.verification.claim_within_s)) +
+         line("claim_oldest_s", toml_number(settings.verification.claim_oldest_s));
 }
 
 }  // namespace tubesight::board

@@ -32,7 +32,7 @@ TEST(ResultFiles, HoldOneRowAFieldAndOneATubeEnd) {
             "field,frame,parity,time_s,state,tracked,primary_row,primary_column,primary_u_px,"
             "primary_v_px,tool_row,tool_column,tool_offset_mm,tool_height_mm,aligned,margin,"
             "reason\n"
-            "3,1,odd,0.000000,waiting,0,,,,,,,,,0,,no-start\n");
+            "3,1,odd,0.000000,waiting,0,,,,,,,,,0,,no-start,,,,unknown\n");
   // A plug is no tube-end measured.
   EXPECT_EQ(folder.read("c.csv"),
             "field,row,column,u_px,v_px,quality\n3,4,6,10.000,20.500,0.9000\n");

@@ -158,18 +158,18 @@ TEST(Readout, StateHasItsColour) {
 }
 
 TEST(Readout, EveryReasonFitsWholeBesideItsState) {
-  for (int code = 0; code <= static_cast<int>(Reason::kArithmetic); ++code) {
+  for (int code = 0; code < count_of<Reason>(); ++code) {
     Canvas canvas = paper(635, 480);
     Painter painter(canvas.view());
     Sighting s;
     s.reason = static_cast<Reason>(code);
     s.state = s.reason >= Reason::kCoasted ? TrackState::kLost : TrackState::kDegraded;
     const Rgb colour = s.state == TrackState::kLost ? palette::kStateLost : palette::kStateDegraded;
-    EXPECT_EQ(reason_words(s.reason).empty(), s.reason == Reason::kNone);
+    EXPECT_EQ(words_of(s.reason).mark.empty(), s.reason == Reason::kNone);
 
     draw_readout(painter, s, std::nullopt);
 
-    EXPECT_TRUE(reads(canvas, reason_words(s.reason), 2, colour)) << code;
+    EXPECT_TRUE(reads(canvas, words_of(s.reason).mark, 2, colour)) << code;
   }
 }
 

@@ -51,6 +51,14 @@ TEST_F(SessionOf, TakesAStartInTheFieldThatItCameWith) {
   EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kNone);
 }
 
+TEST(SessionEdges, TakeAStartWhereZeroAsksForTheProgramsOwnThresholds) {
+  SheetRun<FixedPoint> run;
+  run.settings->edges = {0, 0};
+  run.configure();
+  run.begin();
+  EXPECT_TRUE(run.sighting().aligned);
+}
+
 TEST_F(SessionOf, RefusesAStartAndSaysWhy) {
   run_.add_start(kOverTube, {{20, 10}, {21, 10}});
   run_.step(kOverTube);

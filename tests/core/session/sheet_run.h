@@ -69,6 +69,7 @@ class SheetRun {
   std::unique_ptr<SyntheticSheet> sheet;  ///< after configure()
   FieldTime now{1'000'000'000};
   std::int64_t sequence = 100;
+  std::int64_t number = 40;  ///< of the last field
   FieldStatus status = FieldStatus::kGood;
 
   void configure() {
@@ -76,6 +77,7 @@ class SheetRun {
     ASSERT_TRUE(session_->configure(*settings).has_value());
   }
 
+  void lamp_dimmed(bool dimmed) { input_.lamp_dimmed = dimmed; }
   void add(const Event& event) { ASSERT_TRUE(input_.events.try_push_back(event)); }
 
   /// Clicks on tubes as they stand at `place`, a few pixels off.
@@ -99,6 +101,7 @@ class SheetRun {
     input_.field.status = status;
     input_.field.sequence = sequence;
     input_.field.mid_exposure = now;
+    input_.field.number = ++number;
     session_->step(input_, output_);
     input_.events.clear();
     status = FieldStatus::kGood;
@@ -109,6 +112,18 @@ class SheetRun {
   }
   void draw(const ToolPlace& place) {
     sheet->draw(place, parity(), static_cast<std::uint32_t>(sequence), frame_);
+  }
+  /// No field came in time; the next one may be `late` and belong before this moment.
+  const Output& miss(const ToolPlace& truth, bool late = false) {
+    status = FieldStatus::kMissing;
+    const auto sequence_before = sequence;
+    const auto now_before = now;
+    sequence = 0;  // has none
+    now += kFieldSpan / 2;
+    step_on_last_picture(truth);
+    sequence = late ? sequence_before : sequence_before + 1;
+    now = late ? now_before : now_before + kFieldSpan;
+    return output_;
   }
   /// Fields that never arrive.
   void drop(int fields) {

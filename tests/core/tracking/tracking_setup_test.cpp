@@ -46,6 +46,17 @@ TYPED_TEST(TrackingSetup, TakesTheSettingsOver) {
   EXPECT_LT((vector(model.virtual_plane.x_axis()) - R.col(0)).norm(), 1e-6);
 }
 
+TYPED_TEST(TrackingSetup, TakesItsOwnThresholdForZero) {
+  this->scene_.settings->edges = {0, 70};
+  ASSERT_TRUE(this->make().has_value());
+  EXPECT_EQ(this->scene_.model.initial_threshold, 200);
+  EXPECT_EQ(this->scene_.model.region_threshold, 70);
+  this->scene_.settings->edges = {300, 0};
+  ASSERT_TRUE(this->make().has_value());
+  EXPECT_EQ(this->scene_.model.initial_threshold, 300);
+  EXPECT_EQ(this->scene_.model.region_threshold, 60);
+}
+
 TYPED_TEST(TrackingSetup, RefusesATipBeyondTheFormat) {
   this->scene_.settings->tool.position_mm[1] = 1000.0;
   this->expect(Error::kOutOfRange);

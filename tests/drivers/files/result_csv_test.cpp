@@ -23,8 +23,11 @@ core::Sighting full_sighting() {
   sighting.height_um_q8 = 60000 * 256 + 13;  // 60.00005078 mm
   sighting.tool_known = true;
   sighting.tool = {41, 62};
-  sighting.offset_um_q8 = 550 * 256 + 51;  // 0.55019921875 mm
+  sighting.offset_um_q8 = 550 * 256 + 51;                       // 0.55019921875 mm
+  sighting.displacement_um_q8 = {450 * 256, -316 * 256 - 154};  // 0.45, -0.3166016 mm
   sighting.aligned = true;
+  sighting.judged = true;
+  sighting.residual_px_q16 = 8192 + 13;  // 0.1252
   sighting.margin_known = true;
   sighting.margin_permyriad = 123456;
   return sighting;
@@ -34,15 +37,16 @@ TEST(AppendFieldsRow, WritesEveryCell) {
   std::string row;
   append_fields_row(row, 1, core::Parity::kOdd, full_sighting());
 
-  EXPECT_EQ(
-      row, "1,0,odd,0.016667,tracking,17,40,-60,313.500,196.001,41,62,0.5502,60.0001,1,12.3456,\n");
+  EXPECT_EQ(row,
+            "1,0,odd,0.016667,tracking,17,40,-60,313.500,196.001,41,62,0.5502,60.0001,1,12.3456,,0."
+            "4500,-0.3166,0.125,unknown\n");
 }
 
 TEST(AppendFieldsRow, HasAsManyCellsAsItsHeader) {
   std::string row;
   append_fields_row(row, 0, core::Parity::kEven, {});
 
-  EXPECT_EQ(row, "0,0,even,0.000000,waiting,0,,,,,,,,,0,,no-start\n");
+  EXPECT_EQ(row, "0,0,even,0.000000,waiting,0,,,,,,,,,0,,no-start,,,,unknown\n");
   EXPECT_EQ(std::count(row.begin(), row.end(), ','),
             std::count(kFieldsHeader.begin(), kFieldsHeader.end(), ','));
 }
@@ -55,7 +59,9 @@ TEST(AppendFieldsRow, KeepsHeightOverAVoid) {
   std::string row;
   append_fields_row(row, 184, core::Parity::kProgressive, sighting);
 
-  EXPECT_EQ(row, "184,92,progressive,0.016667,tracking,17,40,-60,313.500,196.001,,,,60.0001,0,,\n");
+  EXPECT_EQ(row,
+            "184,92,progressive,0.016667,tracking,17,40,-60,313.500,196.001,,,,60.0001,0,,,,,0.125,"
+            "unknown\n");
 }
 
 TEST(AppendFieldsRow, SaysWhyItIsLost) {
@@ -65,7 +71,7 @@ TEST(AppendFieldsRow, SaysWhyItIsLost) {
   std::string row;
   append_fields_row(row, 7, core::Parity::kOdd, sighting);
 
-  EXPECT_EQ(row, "7,3,odd,0.000000,lost,0,,,,,,,,,0,,coasted\n");
+  EXPECT_EQ(row, "7,3,odd,0.000000,lost,0,,,,,,,,,0,,coasted,,,,unknown\n");
 }
 
 TEST(AppendCentersRow, WritesEveryCell) {

@@ -39,6 +39,7 @@ TEST_F(SessionSettings, ReadsEveryTable) {
   ASSERT_EQ(load(kWhole + "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
                           "max_acceleration_mm_s2 = 2000.5\n[edges]\ninitial_threshold = 150\n"
                           "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
+                          "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
                           "[camera_quality]\nid = \"c1\"\nsigma = [1.0]\n[tool_quality]\n"
                           "id = \"t1\"\nmade_at = 1995-08-01\n"),
             Messages{});
@@ -66,6 +67,8 @@ TEST_F(SessionSettings, ReadsEveryTable) {
   EXPECT_EQ(settings_.edges.initial_threshold, 150);
   EXPECT_EQ(settings_.edges.region_threshold, 50);
   EXPECT_EQ(settings_.verification.aligned_within_mm, 2.0);
+  EXPECT_EQ(settings_.verification.claim_within_s, 0.04);
+  EXPECT_EQ(settings_.verification.claim_oldest_s, 0.2);
   EXPECT_EQ(session_->camera_quality.id, "c1");
   EXPECT_EQ(session_->tool_quality.id, "t1");
   EXPECT_TRUE(session_->has_tool);
@@ -95,6 +98,8 @@ TEST_F(SessionSettings, HasTheDefaultsOfTheConventions) {
   EXPECT_EQ(settings_.motion.max_speed_mm_s, 300.0);
   EXPECT_EQ(settings_.motion.max_acceleration_mm_s2, 3000.0);
   EXPECT_EQ(settings_.verification.aligned_within_mm, 2.5);
+  EXPECT_EQ(settings_.verification.claim_within_s, 0.05);
+  EXPECT_EQ(settings_.verification.claim_oldest_s, 0.25);
   EXPECT_EQ(settings_.tubesheet.origin_mm[0], 0.0);
 }
 

@@ -43,7 +43,8 @@ std::unique_ptr<drivers::SessionFile> odd_session() {
       "window_px = [41, 37, 594, 329]\noptimum_px = [300.5, 170]\n"
       "[motion]\nmax_speed_mm_s = 251.5\nmax_acceleration_mm_s2 = 2001\n"
       "[edges]\ninitial_threshold = 210\nregion_threshold = 61\n"
-      "[verification]\naligned_within_mm = 2.25\n";
+      "[verification]\naligned_within_mm = 2.25\n"
+      "claim_within_s = 0.031\nclaim_oldest_s = 0.35\n";
   drivers::Messages messages;
   const bool good =
       drivers::load_session_settings(files, "s.toml", drivers::kReplayNeeds, *file, messages)
@@ -90,6 +91,8 @@ TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
   EXPECT_EQ(b.motion.max_speed_mm_s, 251.5);
   EXPECT_EQ(b.edges.initial_threshold, 210);
   EXPECT_EQ(b.verification.aligned_within_mm, 2.25);
+  EXPECT_EQ(b.verification.claim_within_s, 0.031);
+  EXPECT_EQ(b.verification.claim_oldest_s, 0.35);
 }
 
 }  // namespace

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/base/field.h"
+#include "core/base/image_view.h"
+
+namespace tubesight::core::tracking {
+
+/// Tells since which field the picture has been the same, but for noise.
+///
+/// For clicks into a picture that has gone by: they hold in the present one only if nothing moved
+/// in between, and on a bare lattice a look at both ends does not tell, as a tool that went on by a
+/// whole step shows the same picture again. So every field is compared with the one from which the
+/// picture is taken to stand still: on the way to the next tube-end it must look different, and as
+/// long as the tool cannot go a whole step between two fields, one of them is seen there.
+///
+/// Means of 16 pixels side by side on 16 lines over the window: some 15,000 instructions a field,
+/// to be spent where no track tells more. A lamp that changes, a damaged field or one too late ends
+/// the rest as well; a picture without contrast never rests. One thread; no heap.
+class StillPicture {
+ public:
+  /// Where to look, inclusive, and the longest time between two fields in which the tool cannot
+  /// have gone from one tube-end to the next.
+  struct Setup {
+    std::int32_t left_px = 0;
+    std::int32_t top_px = 0;
+    std::int32_t right_px = 0;
+    std::int32_t bottom_px = 0;
+    FieldTime longest_gap{0};
+  };
+
+  void configure(const Setup& setup) { setup_ = setup; }
+
+  /// Begins anew with the next field.
+  void forget() { compared_ = {}; }
+
+  /// Compares a field with those before it.
+  void look(const Field& field);
+
+  /// Number of the first field from which on the picture has been that of the field looked at last;
+  /// empty when that one shows nothing to compare.
+  [[nodiscard]] const std::int64_t* since() const { return resting_ ? &since_ : nullptr; }
+
+ private:
+  static constexpr std::int32_t kLines = 16;
+  static constexpr std::int32_t kBlocks = 24;
+  static constexpr std::int32_t kBlock_px = 16;
+
+  using Means = std::array<std::uint8_t, static_cast<std::size_t>(kLines* kBlocks)>;
+
+  [[nodiscard]] bool mean_blocks(const FieldView& field, Means& means) const;
+  [[nodiscard]] static bool has_contrast(const Means& means);
+  [[nodiscard]] static bool alike(const Means& a, const Means& b);
+  void begin(const Field& field, const Means& means);
+
+  Setup setup_;
+  std::array<Means, 3> reference_{};  ///< by parity
+  std::array<bool, 3> compared_{};    ///< whether there is one
+  std::int64_t since_ = 0;
+  FieldTime last_time_{0};
+  std::int64_t last_sequence_ = 0;
+  bool resting_ = false;
+};
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/event.h"
+#include "core/base/field.h"
+#include "core/base/reply.h"
+#include "core/base/scalar.h"
+#include "core/tracking/sheet_pose.h"
+#include "core/tracking/still_picture.h"
+#include "core/tracking/tracking_model.h"
+#include "core/verification/recent_fields.h"
+
+namespace tubesight::core::verification {
+
+/// Says whether clicks into a picture gone by hold in the present one: only if the tool has stood
+/// still ever since.
+///
+/// While the box tracks, the track tells; while it waits or is lost, the pictures do. Where the one
+/// takes over from the other the rest begins anew. One thread; no heap.
+template <Scalar S>
+class StartJudge {
+ public:
+  /// `model` outlives the judge.
+  explicit StartJudge(const tracking::TrackingModel<S>& model) : model_(&model) {}
+
+  /// Call once `model` is made, before the first field.
+  void configure();
+
+  /// Looks at a field before it is tracked. `tracking`: the box tracked in the field before.
+  void look(const Field& field, bool tracking);
+
+  /// Why clicks may not be taken in the field looked at last; kNone: they may.
+  [[nodiscard]] StartRefusal judge(const Start& start) const;
+
+  /// Takes what the tracker made of the field looked at last.
+  void follow(const RecentField<S>& field);
+
+ private:
+  [[nodiscard]] bool has_moved(const tracking::SheetPose<S>& pose) const;
+
+  const tracking::TrackingModel<S>* model_;
+  tracking::StillPicture picture_;
+  tracking::SheetPose<S> rest_pose_{};  ///< how the sheet stood when the tracked rest began
+  std::int64_t rest_since_ = 0;         ///< field of that
+  bool tracked_rest_ = false;
+  bool by_track_ = false;  ///< the track tells
+  std::int64_t present_ = -1;
+};
+
+}  // namespace tubesight::core::verification
