@@ -113,7 +113,8 @@ template <core::Scalar S>
 void BoxLoop<S>::take(const core::Field& field) {
   input_.field = field;
   last_number_ = field.number;
-  if (ports_.dimmer != nullptr) {
+  input_.lamp_dimmed = ports_.dimmer != nullptr;
+  if (input_.lamp_dimmed) {
     input_.field.lamp_permille = ports_.dimmer->level_permille();
   }
   gather_events();
@@ -223,16 +224,8 @@ void BoxLoop<S>::send(Port* port, const core::Reply& reply, PortCounters& counte
 /// A level that the dimmer refused is tried again after the next field.
 template <core::Scalar S>
 void BoxLoop<S>::set_lamp() {
-  if (ports_.dimmer == nullptr) {
-    return;
-  }
-  for (const core::Event& event : input_.events) {
-    if (const auto* const command = core::content_if<core::LampCommand>(event)) {
-      lamp_commanded_ = command->permille;
-    }
-  }
-  const std::int32_t wanted = lamp_commanded_.value_or(output_.lamp_permille);
-  if (wanted != ports_.dimmer->level_permille() && !ports_.dimmer->set_level(wanted)) {
+  if (ports_.dimmer != nullptr && output_.lamp_permille != ports_.dimmer->level_permille() &&
+      !ports_.dimmer->set_level(output_.lamp_permille)) {
     ++counters_.dimmer_errors;
   }
 }

@@ -125,7 +125,6 @@ class BoxLoop {
   std::int32_t garbled_now_ = 0;                             ///< in this turn
 
   bool started_ = false;
-  std::optional<std::int32_t> lamp_commanded_;
   core::Parity parity_ = core::Parity::kEven;  ///< of the last field that came
   bool frame_half_missing_ = false;            ///< the next turn brings its other field
   std::int64_t last_number_ = -1;
