@@ -95,14 +95,17 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   pose->add_option("IMAGE", options.images,
                    "Stills: 8-bit grey PNG or PGM; or recordings (.y4m, .y4m.xz)")
       ->required();
-  pose->add_option("--frames", options.frames,
-                   "Of recordings: the frames, counted from 0; default: the first alone")
+  pose->add_option(
+          "--frames", options.frames,
+          "Of recordings: the frames, counted from 0, their tubes tracked from that of the "
+          "start; default: the first alone")
       ->option_text("A-B")
       ->check([](const std::string& text) {
         return std::string(text.empty() ? "names no frame, expected A-B or A" : "");
       });
   pose->add_option("--start", options.start,
-                   "Tube-ends by row, column and a place in their dark, px; default: [start]")
+                   "Tube-ends by row, column and a place in their dark, px, in each picture and in "
+                   "the first frame of --frames; default: [start], clicked in frame 0")
       ->option_text("\"R,C,U,V;...\"")
       ->check([](const std::string& text) {
         return std::string(text.empty() ? "names no tube-end, expected R,C,U,V;R,C,U,V;..." : "");

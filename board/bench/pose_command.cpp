@@ -18,6 +18,7 @@
 #include "board/bench/pose_text.h"
 #include "board/bench/pose_words.h"
 #include "board/bench/still_reader.h"
+#include "board/bench/still_tubes.h"
 #include "core/pose/calibration_uncertainty.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
@@ -26,6 +27,7 @@
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/png_writer.h"
+#include "drivers/settings/session_checks.h"
 #include "drivers/settings/session_settings.h"
 
 namespace tubesight::board {
@@ -73,7 +75,8 @@ class PoseRun {
     for (const std::string& message : messages) {
       tell(message);
     }
-    return good && make_model() && take_stills() && take_starts() && take_extras() && outputs_fit();
+    return good && make_model() && take_stills() && take_starts() && take_tubes() &&
+           take_extras() && outputs_fit();
   }
 
   bool make_model() {
@@ -90,9 +93,8 @@ class PoseRun {
   }
 
   bool take_stills() {
-    FrameRange frames;
     if (!options_.frames.empty()) {
-      if (!parse_frames(options_.frames, frames)) {
+      if (!parse_frames(options_.frames, frames_)) {
         tell("--frames: " + drivers::in_quotes(options_.frames) +
              ", expected A-B or A, frames of a recording counted from 0");
         return false;
@@ -102,7 +104,7 @@ class PoseRun {
         return false;
       }
     }
-    stills_ = stills_of(options_.images, frames);
+    stills_ = stills_of(options_.images, frames_);
     return true;
   }
 
@@ -126,6 +128,25 @@ class PoseRun {
     }
     if (message = why_starts_wrong(starts_, settings()); !message.empty()) {
       tell("--start: " + message);
+      return false;
+    }
+    return true;
+  }
+
+  /// What tells the tubes of each still from the start.
+  bool take_tubes() {
+    // [start] was clicked in the first frame of a recording and counts as in a replay; places named
+    // for the frames asked for are those of the first of them, whatever the recording tells.
+    const StartFrame where =
+        options_.start.empty() ? StartFrame{0, true} : StartFrame{frames_.first, false};
+    tubes_.emplace(settings(), StillClicks{starts_, where, options_.only_start});
+    // Of an average the first frame alone: the further ones agree with it.
+    const auto tracked = std::find_if(stills_.begin(), stills_.end(), [this](const Still& still) {
+      return !tubes_->was_clicked(still) && !(options_.average && still.frame > frames_.first);
+    });
+    if (tracked != stills_.end() && !file_.has_tool) {
+      tell(options_.session + ": tool: the table is missing, expected it for " + tracked->name() +
+           ", as its tubes must be tracked from frame " + std::to_string(where.frame));
       return false;
     }
     return true;
@@ -183,8 +204,15 @@ class PoseRun {
   ExitStatus take(StillAverager& averager, std::span<const Still> stills) {
     const StillsRead read = averager.read(stills);
     PoseRow row{stills.front().name(), nullptr, core::pose::Matrix6d::Zero(), file_.has_tool, true};
+    ExitStatus status = read.status;
     std::string message = read.message;
-    if (read.status == ExitStatus::kDone) {
+    TubesFound tubes;
+    if (status == ExitStatus::kDone) {
+      tubes = tubes_->find(stills);
+      status = tubes.status;
+      message = tubes.message;
+    }
+    if (status == ExitStatus::kDone) {
       core::pose::PictureOptions how;
       how.pose.method = options_.method;
       how.rims.edge.method = options_.edge;
@@ -192,9 +220,13 @@ class PoseRun {
       if (settings().edges.initial_threshold > 0) {
         how.scan.initial_threshold = settings().edges.initial_threshold;
       }
-      outcome_ =
-          core::pose::estimate_from_picture(read.picture, model_, map_, starts_, how, *workspace_);
-      if (outcome_.has_value()) {
+      outcome_ = core::pose::estimate_from_picture(read.picture, model_, map_, tubes.places, how,
+                                                   *workspace_);
+      if (outcome_.has_value() && tubes.tool && !(*tubes.tool == outcome_.pose.estimate.nearest)) {
+        message = row.image + ": no pose: it would be under " +
+                  drivers::address_text(outcome_.pose.estimate.nearest) +
+                  ", and the tracking sees " + drivers::address_text(*tubes.tool);
+      } else if (outcome_.has_value()) {
         row.estimate = &outcome_.pose.estimate;
         row.covariance = outcome_.pose.estimate.covariance;
         add_calibrations(how.pose.rims, row);
@@ -209,7 +241,7 @@ class PoseRun {
         draw(averager);
         ++poses_;
       } else {
-        message = row.image + ": " + explain(outcome_, starts_);
+        message = row.image + ": " + explain(outcome_, tubes.places);
       }
     }
     append_pose_row(poses_csv_, row);
@@ -217,8 +249,7 @@ class PoseRun {
     if (!message.empty()) {
       tell(message);
     }
-    return read.status == ExitStatus::kDone && row.estimate == nullptr ? ExitStatus::kJobFailed
-                                                                       : read.status;
+    return status == ExitStatus::kDone && row.estimate == nullptr ? ExitStatus::kJobFailed : status;
   }
 
   /// With `--total`, the calibrations' share of the covariance.
@@ -273,8 +304,10 @@ class PoseRun {
   drivers::SessionFile file_;
   core::tubesheet::SheetMap map_;
   core::pose::PoseModel model_;
+  FrameRange frames_;  ///< of recordings; by default the first frame alone
   std::vector<Still> stills_;
   PictureStarts starts_;
+  std::optional<StillTubes> tubes_;
   core::pose::CalibrationUncertainty calibrations_;
   core::pose::CorrectionRequest correction_;
   core::pose::PictureOutcome outcome_;

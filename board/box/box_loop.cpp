@@ -224,8 +224,11 @@ void BoxLoop<S>::send(Port* port, const core::Reply& reply, PortCounters& counte
 /// A level that the dimmer refused is tried again after the next field.
 template <core::Scalar S>
 void BoxLoop<S>::set_lamp() {
-  if (ports_.dimmer != nullptr && output_.lamp_permille != ports_.dimmer->level_permille() &&
-      !ports_.dimmer->set_level(output_.lamp_permille)) {
+  if (ports_.dimmer == nullptr) {
+    return;
+  }
+  const std::int32_t wanted = output_.lamp_permille;
+  if (wanted != ports_.dimmer->level_permille() && !ports_.dimmer->set_level(wanted)) {
     ++counters_.dimmer_errors;
   }
 }
