@@ -24,7 +24,6 @@ namespace {
 
 using core::Error;
 using core::Result;
-using core::Unexpected;
 
 /// What make_tracking_model() asks for beyond the ranges of the single keys.
 constexpr const char* kBeyondArithmetic =

@@ -215,6 +215,20 @@ TEST_F(BoxLoopTest, ReportsWhatWasCommandedAsTheLevelInForce) {
 
   EXPECT_EQ(loop_->input().field.lamp_permille, 640);
   EXPECT_EQ(dimmer_.levels(), (std::vector<std::int32_t>{1000, 640})) << "set once";
+  ASSERT_EQ(link_.replies().size(), 1U);
+  EXPECT_EQ(tests::content_of<core::LampReply>(link_.replies()[0]).permille, 640);
+}
+
+TEST_F(BoxLoopStart, WithoutADimmerServesNoLampCommands) {
+  ports_.dimmer = nullptr;
+  make_loop();
+  ASSERT_TRUE(loop_->start());
+  link_.say(tests::event_of(core::LampCommand{640}));
+
+  take_field();
+
+  ASSERT_EQ(link_.replies().size(), 1U);
+  EXPECT_TRUE(tests::is<core::NotServedReply>(link_.replies()[0]));
 }
 
 TEST_F(BoxLoopTest, TriesALevelAgainThatTheDimmerRefused) {
