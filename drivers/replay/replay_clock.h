@@ -11,7 +11,7 @@ class ReplayClock final : public hal::Clock {
   /// `grabber` outlives the clock.
   explicit ReplayClock(const ReplayFrameGrabber& grabber) : grabber_(&grabber) {}
 
-  [[nodiscard]] core::FieldTime now() const override { return grabber_->latest_time(); }
+  [[nodiscard]] core::FieldTime now() const override { return grabber_->field_time(); }
 
  private:
   const ReplayFrameGrabber* grabber_;

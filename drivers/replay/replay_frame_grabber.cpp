@@ -1,6 +1,5 @@
 #include "drivers/replay/replay_frame_grabber.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/assert.h"
@@ -79,7 +78,6 @@ Result<void> ReplayFrameGrabber::start() {
   later_field_ = false;
   field_number_ = -1;
   field_time_ = core::FieldTime(0);
-  latest_time_ = core::FieldTime(0);
   sequence_ = 0;
   TUBESIGHT_TRY(open());
   TUBESIGHT_TRY(check_header());
@@ -231,7 +229,6 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   }
   field_number_ = number;
   field_time_ = field.mid_exposure;
-  latest_time_ = std::max(latest_time_, field_time_);
   ++sequence_;
   frame_ready_ = interlaced() && !later_field_;
   later_field_ = frame_ready_;

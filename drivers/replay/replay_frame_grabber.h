@@ -54,7 +54,6 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   /// Mid-exposure of the field last delivered, and the latest of all since start(): the recording's
   /// own time may run backwards.
   [[nodiscard]] core::FieldTime field_time() const { return field_time_; }
-  [[nodiscard]] core::FieldTime latest_time() const { return latest_time_; }
 
   /// The last frame read, both fields: to draw an overlay on. Valid until the next grab_for().
   [[nodiscard]] core::ImageView frame() const;
@@ -94,7 +93,6 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   Messages messages_;
   std::int64_t field_number_ = -1;
   core::FieldTime field_time_{0};
-  core::FieldTime latest_time_{0};
   std::int64_t sequence_ = 0;
   bool started_ = false;
   bool lent_ = false;

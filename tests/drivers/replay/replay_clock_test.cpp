@@ -17,12 +17,12 @@ core::CameraSettings small_camera() {
   return camera;
 }
 
-/// The clock of a recording of so many frames, 25 a second, with these rows of a meta file.
+/// The clock of a recording of so many frames, 25 a second.
 class RecordedClock {
  public:
-  explicit RecordedClock(int frames = 200, const std::string& meta = "")
+  explicit RecordedClock(int frames = 200)
       : text_(support::recording_text("YUV4MPEG2 W4 H3 F25:1 It Cmono", frames, 12)),
-        grabber_(small_camera(), support::source_of(text_), "r", meta) {
+        grabber_(small_camera(), support::source_of(text_), "r", {}) {
     EXPECT_TRUE(grabber_.start());
   }
 
@@ -43,16 +43,6 @@ TEST(ReplayClock, TellsTheTimeOfTheLastField) {
   recorded.pass();
 
   EXPECT_EQ(recorded.clock().now(), core::FieldTime(std::chrono::milliseconds(20)));
-}
-
-TEST(ReplayClock, StandsStillWhileTheRecordingsTimeRunsBackwards) {
-  RecordedClock recorded(1,
-                         "field,sequence,time_s,status,lamp_permille\n"
-                         "0,0,5.000000,good,1000\n1,1,4.000000,good,1000\n");
-  recorded.pass();
-  recorded.pass();
-
-  EXPECT_EQ(recorded.clock().now(), core::FieldTime(std::chrono::seconds(5)));
 }
 
 }  // namespace
