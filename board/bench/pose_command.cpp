@@ -22,8 +22,8 @@
 #include "core/pose/calibration_uncertainty.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/position_correction.h"
 #include "core/tubesheet/sheet_map.h"
+#include "core/verification/position_correction.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/png_writer.h"
@@ -234,9 +234,10 @@ class PoseRun {
         text_ += pose_text({row, outcome_, model_, map_, static_cast<std::int32_t>(stills.size()),
                             read.frame_shift_px, read.field_shift_px, options_.total});
         if (!options_.correct.empty()) {
-          text_ += correction_text(core::pose::correct_position(model_, row.estimate->T_sheet_tool,
-                                                                row.covariance, correction_),
-                                   correction_);
+          text_ +=
+              correction_text(core::verification::correct_position(
+                                  model_, row.estimate->T_sheet_tool, row.covariance, correction_),
+                              correction_);
         }
         draw(averager);
         ++poses_;
@@ -309,7 +310,7 @@ class PoseRun {
   PictureStarts starts_;
   std::optional<StillTubes> tubes_;
   core::pose::CalibrationUncertainty calibrations_;
-  core::pose::CorrectionRequest correction_;
+  core::verification::CorrectionRequest correction_;
   core::pose::PictureOutcome outcome_;
   std::unique_ptr<core::pose::PictureWorkspace> workspace_ =
       std::make_unique<core::pose::PictureWorkspace>();

@@ -5,7 +5,7 @@
 
 #include "core/pose/arc_edge.h"
 #include "core/pose/pose_estimate.h"
-#include "core/pose/position_correction.h"
+#include "core/verification/position_correction.h"
 
 namespace tubesight::board {
 
@@ -21,8 +21,8 @@ struct PoseCommandOptions {
   std::string covariance;
   std::string overlay;
   bool total = false;
-  std::string correct;                           ///< "ROW,COLUMN"; empty: no correction asked for
-  double limit_mm = core::pose::kProbeLimit_mm;  ///< of the insertion
+  std::string correct;  ///< "ROW,COLUMN"; empty: no correction asked for
+  double limit_mm = core::verification::kProbeLimit_mm;  ///< of the insertion
   core::pose::PoseMethod method = core::pose::PoseMethod::kRims;
   core::pose::EdgeMethod edge = core::pose::EdgeMethod::kBlurredStep;
 };

@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include "board/bench/pose_words.h"
-#include "core/pose/position_correction.h"
 #include "core/pose/rotation.h"
 #include "core/pose/tool_answer.h"
+#include "core/verification/position_correction.h"
 
 namespace tubesight::board {
 namespace {
@@ -38,7 +38,7 @@ double sigma(const PoseRow& row, int i) { return std::sqrt(std::max(0.0, row.cov
 /// its two main directions.
 double offset_sigma_mm(const PoseRow& row) {
   const Eigen::Matrix2d covariance =
-      core::pose::axis_covariance(row.estimate->T_sheet_tool, row.covariance);
+      core::verification::axis_covariance(row.estimate->T_sheet_tool, row.covariance);
   const double difference = (covariance(0, 0) - covariance(1, 1)) / 2.0;
   return std::sqrt(
       std::max(0.0, covariance.trace() / 2.0 + std::hypot(difference, covariance(0, 1))));
@@ -121,8 +121,8 @@ std::string pose_text(const PoseFacts& facts) {
   return out;
 }
 
-std::string correction_text(const core::pose::PositionCorrection& correction,
-                            const core::pose::CorrectionRequest& request) {
+std::string correction_text(const core::verification::PositionCorrection& correction,
+                            const core::verification::CorrectionRequest& request) {
   std::string out;
   const Eigen::Vector3d& move = correction.move.translation_mm();
   print(out,

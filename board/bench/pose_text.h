@@ -5,8 +5,8 @@
 #include "board/bench/pose_rows.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/position_correction.h"
 #include "core/tubesheet/sheet_map.h"
+#include "core/verification/position_correction.h"
 
 namespace tubesight::board {
 
@@ -27,7 +27,7 @@ struct PoseFacts {
 [[nodiscard]] std::string pose_text(const PoseFacts& facts);
 
 /// The move that brings the tip under a tube, its uncertainty, and whether the limit is met.
-[[nodiscard]] std::string correction_text(const core::pose::PositionCorrection& correction,
-                                          const core::pose::CorrectionRequest& request);
+[[nodiscard]] std::string correction_text(const core::verification::PositionCorrection& correction,
+                                          const core::verification::CorrectionRequest& request);
 
 }  // namespace tubesight::board

@@ -53,7 +53,7 @@ CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concep
     cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
     tuple type_traits utility variant version""".split())
 EIGEN_FOLDERS = ("core/base", "core/pose", "core/calibration", "core/kinematics",
-                 "core/rendering")
+                 "core/rendering", "core/verification")
 
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
     cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string

@@ -1,4 +1,4 @@
-#include "core/pose/position_correction.h"
+#include "core/verification/position_correction.h"
 
 #include <cmath>
 
@@ -7,8 +7,16 @@
 #include "core/pose/rotation.h"
 #include "core/pose/tool_answer.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::verification {
 namespace {
+
+using pose::exp_rotation;
+using pose::log_rotation;
+using pose::Matrix6d;
+using pose::offset_from;
+using pose::PoseModel;
+using pose::skew;
+using pose::TubeOffset;
 
 using SheetTool = Transform<frames::Sheet, frames::Tool>;
 
@@ -95,4 +103,4 @@ PositionCorrection correct_position(const PoseModel& model, const SheetTool& T_s
   return result;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::verification

@@ -7,7 +7,7 @@
 #include "core/pose/matrix.h"
 #include "core/pose/pose_model.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::verification {
 
 /// What a correction brings about.
 enum class CorrectionGoal : std::uint8_t {
@@ -51,12 +51,12 @@ struct PositionCorrection {
 /// `covariance` as in PoseEstimate. The move is made in the tool's frame as it truly is, so the
 /// errors left are those of the pose at the moved tip: tau + theta x (R t_move).
 [[nodiscard]] PositionCorrection correct_position(
-    const PoseModel& model, const Transform<frames::Sheet, frames::Tool>& T_sheet_tool,
-    const Matrix6d& covariance, const CorrectionRequest& request);
+    const pose::PoseModel& model, const Transform<frames::Sheet, frames::Tool>& T_sheet_tool,
+    const pose::Matrix6d& covariance, const CorrectionRequest& request);
 
 /// The covariance of the point where the axis meets the sheet: delta a = M (tau + l theta x n) with
 /// n the axis, l = -z / n_z its length to the sheet and M = I - n e_z^T / n_z.
 [[nodiscard]] Eigen::Matrix2d axis_covariance(
-    const Transform<frames::Sheet, frames::Tool>& T_sheet_tool, const Matrix6d& covariance);
+    const Transform<frames::Sheet, frames::Tool>& T_sheet_tool, const pose::Matrix6d& covariance);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::verification
