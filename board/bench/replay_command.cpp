@@ -1,5 +1,6 @@
 #include "board/bench/replay_command.h"
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -19,6 +20,7 @@
 #include "drivers/replay/companion.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
+#include "drivers/settings/session_checks.h"
 #include "drivers/settings/session_settings.h"
 
 namespace tubesight::board {
@@ -68,9 +70,25 @@ class Replay {
       good = static_cast<bool>(grabber_->start());
       messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
     }
+    good = good && fields_come_often_enough(messages);
     good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
     tell(messages);
     return good;
+  }
+
+  /// A recording that no track can follow whatever it shows is refused before anything is written.
+  [[nodiscard]] bool fields_come_often_enough(drivers::Messages& messages) const {
+    const core::FieldTime span = grabber_->shortest_span();
+    if (span <= core::FieldTime{0}) {
+      return true;
+    }
+    const core::SessionSettings& settings = session_file_->settings;
+    const std::string why = drivers::why_fields_too_seldom(
+        settings.motion, settings.tubesheet, std::chrono::duration<double>(span).count());
+    if (!why.empty()) {
+      messages.push_back(options_.session + ": motion: " + options_.recording + ": " + why);
+    }
+    return why.empty();
   }
 
   bool open_outputs() {

@@ -1,5 +1,6 @@
 #include "board/bench/simulate_command.h"
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "board/bench/simulate/settings_text.h"
 #include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
+#include "drivers/settings/session_checks.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {
@@ -77,6 +79,12 @@ ExitStatus run_simulate(const SimulateOptions& options) {
   if (!world->configure(file->scenario)) {
     tell(options.scenario + ": cannot be played, expected what load_scenario() checks");
     return ExitStatus::kWrongInput;
+  }
+  const std::chrono::duration<double> span = world->slot_time(1) - world->slot_time(0);
+  if (const std::string why = drivers::why_fields_too_seldom(
+          file->scenario.told.motion, file->scenario.told.tubesheet, span.count());
+      !why.empty()) {
+    tell(options.scenario + ": the recording can be drawn and not be tracked: " + why);
   }
   RecordingFiles files;
   if (!files.open(options.out, file->scenario, heading(options, *file))) {

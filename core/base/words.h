@@ -41,6 +41,12 @@ struct Words {
     case Reason::kGap: return {"gap", "too many fields are missing", "fields missing"};
     case Reason::kTime:
       return {"time", "the time of a field is not after that of the field before", "time ran back"};
+    case Reason::kSequence:
+      return {"sequence", "the counter of the fields went back", "count ran back"};
+    case Reason::kRate:
+      return {"rate", "fields come too seldom for [motion] and the pitch", "rate too low"};
+    case Reason::kFieldOrder:
+      return {"field-order", "the order of the fields is not as the settings say", "field order"};
     case Reason::kArithmetic:
       return {"arithmetic", "a number left the range of the arithmetic", "out of range"};
     case Reason::kNoField: return {"no-field", "no field came in time", "no field came"};

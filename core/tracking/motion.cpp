@@ -41,7 +41,13 @@ SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
 }
 
 template <Scalar S>
-Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s) {
+Mm<S> address_limit_mm(const TrackingModel<S>& model) {
+  return times(model.lattice.parameters().shortest_step, from_scaled<Mm<S>>(410, 10));
+}
+
+template <Scalar S>
+Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s,
+                   Mm<S> deviation_mm) {
   using M = Mm<S>;
   const M milliseconds = times(from_scaled<M>(1000, 0), span_s);
   const M farthest = times(model.max_speed_mm_s, span_s);
@@ -53,9 +59,14 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   if (motion.known) {
     return std::min(grown, farthest + farthest);
   }
+  // Two places are compared, each known to three standard deviations: six of them, a sixteenth of
+  // the step at least.
   const M step = model.lattice.parameters().shortest_step;
-  const M unique = step - farthest - times(step, from_scaled<M>(1, 4));
-  return std::min({farthest, times(step, from_scaled<M>(3, 3)), std::max(unique, grown)});
+  const M three = deviation_mm + deviation_mm + deviation_mm;
+  const M slack = std::max(times(step, from_scaled<M>(1, 4)), three + three);
+  const M unique = step - farthest - slack;
+  const M widest = std::min(times(step, from_scaled<M>(3, 3)), address_limit_mm<S>(model) - three);
+  return std::min(farthest, std::max(std::min(widest, unique), grown));
 }
 
 template <Scalar S>
@@ -91,7 +102,8 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   template Unit<S> seconds<S>(FieldTime);                                                          \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
-  template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>);              \
+  template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \
+  template Mm<S> address_limit_mm<S>(const TrackingModel<S>&);                                     \
   template Motion<S> motion_between<S>(const SheetPose<S>&, const ToolPoint<S>&,                   \
                                        const SheetPose<S>&, const ToolPoint<S>&, const Motion<S>&, \
                                        Unit<S>);

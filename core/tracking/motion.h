@@ -40,10 +40,18 @@ template <Scalar S>
 ///
 /// After a start the motion is unknown. What is seen at a distance d from the last place is then
 /// the same tube-end as long as d plus the greatest speed's way stays below a lattice step; beyond,
-/// the tool is taken to have been at rest when an operator clicked into its picture.
+/// the tool is taken to have been at rest when an operator clicked into its picture. That holds for
+/// any region that is looked at, so that it is drawn as narrow as `deviation_mm`, of the last
+/// place, needs to keep within address_limit_mm(); a tool that has left it is not found. It is
+/// never narrower than what a tool at rest when clicked can reach.
 template <Scalar S>
 [[nodiscard]] Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion,
-                                 Unit<S> span_s);
+                                 Unit<S> span_s, Mm<S> deviation_mm);
+
+/// How far the tool may be from where it is expected, all told: 0.4 of the shortest lattice step.
+/// Beyond, the nearest tube-end might be a neighbour.
+template <Scalar S>
+[[nodiscard]] Mm<S> address_limit_mm(const TrackingModel<S>& model);
 
 /// The motion from one fitted pose to the next; both with the same anchor.
 template <Scalar S>

@@ -15,12 +15,6 @@ std::int32_t rounded(T value) {
   return to_scaled(value, 0);
 }
 
-// 0.4 of the shortest step: beyond, the nearest tube-end might be a neighbour.
-template <Scalar S>
-Mm<S> address_limit(const TrackingModel<S>& model) {
-  return times(model.lattice.parameters().shortest_step, from_scaled<Mm<S>>(410, 10));
-}
-
 // What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
 template <typename M>
 M systematic_mm() {
@@ -82,6 +76,32 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
     seen_time_ = field.mid_exposure;
     seen_sequence_ = field.sequence;
   }
+}
+
+// Whether fields are missing before this one: numbers are, or time is where the numbers tell
+// nothing. The shortest time between two fields is the usual one; stamps that waver by less than
+// half of it are no gap.
+template <Scalar S>
+bool Tracker<S>::misses_fields(const Field& field) {
+  const std::int64_t numbers = field.sequence - seen_sequence_;
+  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
+  const bool missing = numbers > std::max<std::int64_t>(usual_numbers_, 1) ||
+                       (usual_span_ns_ > 0 && passed / 3 > usual_span_ns_ / 2);
+  usual_span_ns_ = usual_span_ns_ == 0 ? passed : std::min(usual_span_ns_, passed);
+  return missing;
+}
+
+// Why the tool can be too far from where it is expected, though no picture was unusable. With no
+// field missing either, the limits of [motion] allow too much between two fields even on a perfect
+// picture, or this picture is too poor.
+template <Scalar S>
+Reason Tracker<S>::why_too_far(bool missing, Mm<S> reach_mm) const {
+  if (missing) {
+    return Reason::kGap;
+  }
+  constexpr std::int32_t kDeviations = 3;
+  const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_mm<Mm<S>>());
+  return reach_mm + least > address_limit_mm<S>(*model_) ? Reason::kRate : Reason::kUncertain;
 }
 
 // The time since the last good field, by its stamps or by the lost sequence numbers, whichever is
@@ -186,29 +206,34 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
 template <Scalar S>
 void Tracker<S>::follow(const Field& field) {
   using M = Mm<S>;
-  const bool missing = field.status == FieldStatus::kMissing;
-  if (field.mid_exposure <= seen_time_ || (!missing && field.sequence < seen_sequence_)) {
+  const bool no_field = field.status == FieldStatus::kMissing;
+  if (field.mid_exposure <= seen_time_) {
     lose(Reason::kTime);
+    return;
+  }
+  if (!no_field && field.sequence < seen_sequence_) {
+    lose(Reason::kSequence);
     return;
   }
   if (!model_->margin_check) {
     follow_unchecked(field);
     return;
   }
+  const bool missing = no_field || misses_fields(field);
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
-    lose(Reason::kGap);
+    lose(missing ? Reason::kGap : Reason::kRate);
     return;
   }
   const Unit<S> span_s = seconds<S>(span);
-  const M reach = reachable_mm<S>(*model_, motion_, span_s);
   predicted_deviation_mm_ = deviation_mm_ + velocity_deviation_mm(span_s);
+  const M reach = reachable_mm<S>(*model_, motion_, span_s, predicted_deviation_mm_);
   const M uncertain =
       reach + predicted_deviation_mm_ + predicted_deviation_mm_ + predicted_deviation_mm_;
   const bool coasting = reason_ != Reason::kNone && state_ == TrackState::kDegraded &&
                         reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
-  if (uncertain > address_limit<S>(*model_)) {
-    lose(coasting ? Reason::kCoasted : Reason::kGap);
+  if (uncertain > address_limit_mm<S>(*model_)) {
+    lose(coasting ? Reason::kCoasted : why_too_far(missing, reach));
     return;
   }
   const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
@@ -219,7 +244,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const M believed = std::min(believed_mm_, reach);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
-    coast(missing ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
+    coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
     return;
   }
   const Outcome outcome = observe(field.pixels, predicted, believed, false);

@@ -69,6 +69,8 @@ class Tracker {
 
   void start(const Field& field);
   [[nodiscard]] bool confirms_clicks(const Outcome& outcome) const;
+  [[nodiscard]] bool misses_fields(const Field& field);
+  [[nodiscard]] Reason why_too_far(bool missing, Mm<S> reach_mm) const;
   [[nodiscard]] FieldTime span_since_good(const Field& field);
   [[nodiscard]] Mm<S> velocity_deviation_mm(Unit<S> span_s) const;
   void follow(const Field& field);
@@ -116,6 +118,7 @@ class Tracker {
   std::int64_t seen_sequence_ = 0;
   std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
   std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
+  std::int64_t usual_span_ns_ = 0;    ///< shortest time from field to field; 0: not known
   std::int32_t contradictions_ = 0;   ///< fields in a row that refuted the prediction
   std::int32_t to_agree_ = 0;         ///< fields that must agree before a tube is named again
   Reason doubted_ = Reason::kNone;    ///< why

@@ -236,6 +236,22 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   return hal::FieldLease(*this, 0, field);
 }
 
+core::FieldTime ReplayFrameGrabber::shortest_span() const {
+  core::FieldTime shortest{0};
+  if (!has_meta_) {
+    const Y4mHeader& header = reader_.header();
+    return nominal_field_time(interlaced() ? 1 : 2, header.rate_numerator, header.rate_denominator);
+  }
+  const auto& rows = meta_.rows();
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const core::FieldTime span = rows[i].time - rows[i - 1].time;
+    if (span > core::FieldTime{0} && (shortest == core::FieldTime{0} || span < shortest)) {
+      shortest = span;
+    }
+  }
+  return shortest;
+}
+
 void ReplayFrameGrabber::give_back(std::int32_t buffer) {
   TUBESIGHT_ASSERT(lent_ && buffer == 0);
   lent_ = false;

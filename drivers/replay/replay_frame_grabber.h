@@ -64,6 +64,10 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   /// Whether fields are those of interlaced frames; valid once started.
   [[nodiscard]] bool interlaced() const { return camera_.scan != core::Scan::kProgressive; }
 
+  /// The shortest time between two fields, by the meta file or the header; zero where neither
+  /// tells. Valid once started.
+  [[nodiscard]] core::FieldTime shortest_span() const;
+
   /// Complete frames read so far.
   [[nodiscard]] std::int64_t frames_read() const { return reader_.frames_read(); }
 

@@ -153,6 +153,42 @@ std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet) {
          " mm between neighbouring tubes";
 }
 
+std::string why_fields_too_seldom(const core::MotionSettings& motion,
+                                  const core::TubesheetSettings& tubesheet, double span_s) {
+  // As core/tracking has it: a prediction from the field before is off by up to a t^2, never by
+  // more than from one greatest speed to the other, and 0.1 mm (three times) is never known better.
+  constexpr double kLimit = 0.4;
+  constexpr double kNeverKnown_mm = 0.3;
+  constexpr double kLongest_s = 1.0;
+  const double step_mm = shortest_step_mm(tubesheet);
+  const double room_mm = kLimit * step_mm - kNeverKnown_mm;
+  const double reach_mm = std::min(motion.max_acceleration_mm_s2 * span_s * span_s,
+                                   2.0 * motion.max_speed_mm_s * span_s);
+  if (reach_mm <= room_mm && span_s < kLongest_s) {
+    return {};
+  }
+  // What is advised leaves a tenth for the picture's noise, in two digits on the safe side.
+  const double advised_mm = 0.9 * room_mm;
+  const auto two_digits = [](double value, double (*towards)(double)) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return rounded_text(towards(value / unit) * unit);
+  };
+  const auto down = [](double value) { return std::floor(value); };
+  const auto up = [](double value) { return std::ceil(value); };
+  const double longest_s = std::max(std::sqrt(advised_mm / motion.max_acceleration_mm_s2),
+                                    advised_mm / (2.0 * motion.max_speed_mm_s));
+  std::string text = rounded_text(1.0 / span_s) +
+                     " fields a second are too few: from one to the next the tool can be " +
+                     rounded_text(reach_mm) + " mm off its course, expected at most " +
+                     rounded_text(room_mm) + " mm with " + rounded_text(step_mm) +
+                     " mm between neighbouring tubes, as by ";
+  if (span_s < kLongest_s) {
+    text += "max_acceleration_mm_s2 = " + two_digits(advised_mm / (span_s * span_s), down) +
+            " or max_speed_mm_s = " + two_digits(advised_mm / (2.0 * span_s), down) + " or ";
+  }
+  return text + two_digits(1.0 / std::min(longest_s, 0.9 * kLongest_s), up) + " fields a second";
+}
+
 std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet) {
   for (const std::int32_t row : tubesheet.rows) {
     for (const std::int32_t column : tubesheet.columns) {

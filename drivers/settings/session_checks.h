@@ -35,6 +35,13 @@ inline constexpr double kLargestSheet_mm = 30000.0;
 /// Distance between the nearest two tubes that `addresses` lets exist, mm. Needs a lattice.
 [[nodiscard]] double shortest_step_mm(const core::TubesheetSettings& tubesheet);
 
+/// From field to field, `span_s` apart, the tool must not be able to reach 0.4 of the way to
+/// another tube: no track would live longer than two fields. Says which values would do. Needs a
+/// lattice.
+[[nodiscard]] std::string why_fields_too_seldom(const core::MotionSettings& motion,
+                                                const core::TubesheetSettings& tubesheet,
+                                                double span_s);
+
 /// All tubes must stand within kLargestSheet_mm.
 [[nodiscard]] std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet);
 

@@ -175,6 +175,35 @@ TEST(Simulate, TheSeedDecidesTheBytes) {
   EXPECT_NE(simulated("c", "4"), first);
 }
 
+TEST(Simulate, AndReplaySayBeforehandThatFieldsComeTooSeldom) {
+  const TemporaryFolder folder;
+  const std::string scenario = small_scenario_text();
+  folder.write("s.toml", scenario.substr(0, scenario.find("rest_s")) +
+                             "rest_s = 1.0\n[video]\nrate_hz = 8\n");
+
+  const ProgramRun drawn = run_tubesight(folder, {"simulate", "s.toml", "--out", "r"});
+  const ProgramRun replayed =
+      run_tubesight(folder, {"replay", "r.session.toml", "r.y4m", "--fields", "f.csv"});
+
+  EXPECT_EQ(drawn.status, 0);
+  EXPECT_EQ(drawn.err.find("s.toml: the recording can be drawn and not be tracked: 16 fields"), 0U)
+      << drawn.err;
+  EXPECT_EQ(replayed.status, 2);
+  EXPECT_EQ(replayed.err.find("r.session.toml: motion: r.y4m: 16 fields a second are too few: "),
+            0U)
+      << replayed.err;
+  EXPECT_NE(replayed.err.find("max_acceleration_mm_s2 = 2200 or"), std::string::npos)
+      << replayed.err;
+  const std::string session = folder.read("r.session.toml");
+  const std::string key = "max_acceleration_mm_s2 = 3000.0";
+  ASSERT_NE(session.find(key), std::string::npos);
+  folder.write("slow.toml", std::string(session).replace(session.find(key), key.size(),
+                                                         "max_acceleration_mm_s2 = 2200"));
+  const ProgramRun slow = run_tubesight(folder, {"replay", "slow.toml", "r.y4m"});
+  EXPECT_EQ(slow.status, 0) << slow.err;
+  EXPECT_NE(slow.out.find("lost            0.000 s"), std::string::npos) << slow.out;
+}
+
 TEST(Simulate, TellsWhatItWrote) {
   const TemporaryFolder folder;
   folder.write("s.toml", small_scenario_text());

@@ -29,7 +29,10 @@ constexpr std::array<std::string_view, kCounts> kNames = {"moves",
                                                           "lost_speed",
                                                           "lost_gap",
                                                           "lost_time",
-                                                          "lost_arithmetic"};
+                                                          "lost_arithmetic",
+                                                          "lost_sequence",
+                                                          "lost_rate",
+                                                          "lost_field_order"};
 
 }  // namespace
 
@@ -50,6 +53,9 @@ Count loss_count(core::Reason reason) {
     case Reason::kSpeed: return Count::kLostSpeed;
     case Reason::kGap: return Count::kLostGap;
     case Reason::kTime: return Count::kLostTime;
+    case Reason::kSequence: return Count::kLostSequence;
+    case Reason::kRate: return Count::kLostRate;
+    case Reason::kFieldOrder: return Count::kLostFieldOrder;
     case Reason::kArithmetic: return Count::kLostArithmetic;
     default: return Count::kLostCoasted;
   }

@@ -38,8 +38,11 @@ enum class Count : std::uint8_t {
   kLostGap,
   kLostTime,
   kLostArithmetic,
+  kLostSequence,
+  kLostRate,
+  kLostFieldOrder,
 };
-inline constexpr std::size_t kCounts = 27;
+inline constexpr std::size_t kCounts = 30;
 
 /// The word of a count in files.
 [[nodiscard]] std::string_view name_of(Count count);

@@ -44,9 +44,10 @@ constexpr std::array<Error, 5> kErrors = {{
     {"missed", Count::kMissed, Count::kMovesMissed},
 }};
 
-constexpr std::array<Count, 7> kLosses = {
-    Count::kLostNoTubes, Count::kLostCoasted, Count::kLostJump,      Count::kLostSpeed,
-    Count::kLostGap,     Count::kLostTime,    Count::kLostArithmetic};
+constexpr std::array<Count, 10> kLosses = {
+    Count::kLostNoTubes, Count::kLostCoasted,   Count::kLostJump,       Count::kLostSpeed,
+    Count::kLostGap,     Count::kLostTime,      Count::kLostArithmetic, Count::kLostSequence,
+    Count::kLostRate,    Count::kLostFieldOrder};
 
 void print_totals(std::string& out, const Progress& progress) {
   const Counts total = progress.total();

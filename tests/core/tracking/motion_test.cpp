@@ -36,11 +36,12 @@ TYPED_TEST(MotionOf, ReachesAsFarAsAccelerationTakesIt) {
   motion.interval_s = Unit<TypeParam>(0.02);
   const auto span = Unit<TypeParam>(0.02);
   // Fixed point writes the interval in steps of 1e-6 s.
-  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, span)), 1.2, 1e-4);
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, span, {})), 1.2, 1e-4);
 
   // 0.06 s after such an interval: 3000 * 0.06 * 0.08 / 2 = 7.2 mm.
-  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.06))),
-              7.2, 1e-4);
+  EXPECT_NEAR(
+      number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.06), {})), 7.2,
+      1e-4);
 }
 
 TYPED_TEST(MotionOf, ReachesNoFartherThanFromOneGreatestSpeedToTheOther) {
@@ -48,19 +49,48 @@ TYPED_TEST(MotionOf, ReachesNoFartherThanFromOneGreatestSpeedToTheOther) {
   Motion<TypeParam> motion;
   motion.known = true;
   motion.interval_s = Unit<TypeParam>(0.02);
-  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.5))),
+  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, motion, Unit<TypeParam>(0.5), {})),
               300.0, 1e-3);
 }
 
 TYPED_TEST(MotionOf, IsAtMostTheGreatestSpeedsWayWhenUnknown) {
   const Motion<TypeParam> unknown;
-  // 300 mm/s * 0.02 s; and never so far that the next tube-end could be meant.
-  EXPECT_NEAR(number(reachable_mm<TypeParam>(this->scene_.model, unknown, Unit<TypeParam>(0.02))),
-              6.0, 1e-4);
-  for (const double span : {0.03, 0.05, 0.1, 0.3}) {
-    EXPECT_LE(number(reachable_mm<TypeParam>(this->scene_.model, unknown, Unit<TypeParam>(span))),
-              std::min(300.0 * span, 25.4 / 2.0))
-        << span;
+  // 300 mm/s * 0.02 s.
+  const auto reach = [&](double span) {
+    return number(reachable_mm<TypeParam>(this->scene_.model, unknown, Unit<TypeParam>(span), {}));
+  };
+  EXPECT_NEAR(reach(0.02), 6.0, 1e-4);
+  for (const double span : {0.03, 0.05, 0.08}) {
+    EXPECT_LE(reach(span), std::min(300.0 * span, 0.4 * 25.4) + 1e-3) << span;
+  }
+  // A tool at rest when clicked can have gone 1500 mm/s^2 * 0.1 s * 0.1 s = 15 mm since, to another
+  // tube: beyond the limit, which ends the track.
+  EXPECT_NEAR(reach(0.1), 15.0, 1e-3);
+}
+
+TYPED_TEST(MotionOf, LeavesNoDeadZoneOfSpeedsRightAfterAStart) {
+  // A place as good as tracking needs later is good enough at once, whatever the top speed; and
+  // what is found within the reach cannot be a neighbour: to look like it, the tool must have gone
+  // a step less the reach, less six deviations, which is farther than the greatest speed takes it.
+  constexpr double kStep_mm = 25.4;
+  const Motion<TypeParam> unknown;
+  for (double share = 0.1; share < 1.6; share += 0.02) {
+    constexpr double kSpan_s = 1.0 / 30.0;
+    this->scene_.settings->motion = {share * kStep_mm / kSpan_s, 3000.0};
+    this->scene_.make();
+    const double limit = number(address_limit_mm<TypeParam>(this->scene_.model));
+    EXPECT_NEAR(limit, 0.4 * kStep_mm, 0.02);
+    for (const double deviation : {0.0, 0.1, 0.25, 0.5, 1.0, 2.0, 2.7}) {
+      const double reach = number(reachable_mm<TypeParam>(
+          this->scene_.model, unknown, Unit<TypeParam>(kSpan_s), Mm<TypeParam>(deviation)));
+      EXPECT_LE(reach + 3.0 * deviation, limit + 1e-3) << share << ", " << deviation;
+      const double at_rest = std::min(share * kStep_mm, 1500.0 * kSpan_s * kSpan_s);
+      EXPECT_GE(reach, at_rest - 1e-3) << share << ", " << deviation;
+      if (reach > at_rest + 1e-3) {
+        EXPECT_LE(share * kStep_mm, kStep_mm - reach - 6.0 * deviation + 1e-2)
+            << share << ", " << deviation;
+      }
+    }
   }
 }
 

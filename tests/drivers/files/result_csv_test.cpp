@@ -101,6 +101,9 @@ TEST(Names, ReasonsAreOneWordEach) {
                                                           {Reason::kSpeed, "speed"},
                                                           {Reason::kGap, "gap"},
                                                           {Reason::kTime, "time"},
+                                                          {Reason::kSequence, "sequence"},
+                                                          {Reason::kRate, "rate"},
+                                                          {Reason::kFieldOrder, "field-order"},
                                                           {Reason::kArithmetic, "arithmetic"}};
   for (const auto& [reason, word] : expected) {
     EXPECT_EQ(core::name_of(reason), word);

@@ -150,6 +150,21 @@ TEST_F(SessionChecks, ClicksMustSpanATriangle) {
             "tube (40, 60) is named twice, expected different tubes");
 }
 
+TEST_F(SessionChecks, FieldsMustComeOftenEnoughForMotionAndPitch) {
+  // 3000 mm/s^2 for 1/15 s: 13.3 mm of the 10.16 less 0.3 that are allowed.
+  EXPECT_EQ(why_fields_too_seldom({300.0, 3000.0}, sheet_, 1.0 / 15.0),
+            "15 fields a second are too few: from one to the next the tool can be 13.33 mm off its "
+            "course, expected at most 9.86 mm with 25.4 mm between neighbouring tubes, as by "
+            "max_acceleration_mm_s2 = 1900 or max_speed_mm_s = 66 or 19 fields a second");
+  EXPECT_EQ(why_fields_too_seldom({300.0, 1900.0}, sheet_, 1.0 / 15.0), "");
+  EXPECT_EQ(why_fields_too_seldom({66.0, 3000.0}, sheet_, 1.0 / 15.0), "");
+  EXPECT_EQ(why_fields_too_seldom({300.0, 3000.0}, sheet_, 1.0 / 19.0), "");
+  EXPECT_EQ(why_fields_too_seldom({1.0, 1.0}, sheet_, 1.25),
+            "0.8 fields a second are too few: from one to the next the tool can be 1.562 mm off "
+            "its course, expected at most 9.86 mm with 25.4 mm between neighbouring tubes, as by "
+            "1.2 fields a second");
+}
+
 TEST_F(SessionChecks, FindsATubeInBothLists) {
   ASSERT_TRUE(sheet_.missing.try_push_back({9, 9}));
   ASSERT_TRUE(sheet_.missing.try_push_back({3, 4}));

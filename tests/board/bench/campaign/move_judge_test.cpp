@@ -134,6 +134,9 @@ TEST(LossCount, KnowsEveryReasonOfALoss) {
   EXPECT_EQ(loss_count(Reason::kGap), Count::kLostGap);
   EXPECT_EQ(loss_count(Reason::kSpeed), Count::kLostSpeed);
   EXPECT_EQ(loss_count(Reason::kTime), Count::kLostTime);
+  EXPECT_EQ(loss_count(Reason::kSequence), Count::kLostSequence);
+  EXPECT_EQ(loss_count(Reason::kRate), Count::kLostRate);
+  EXPECT_EQ(loss_count(Reason::kFieldOrder), Count::kLostFieldOrder);
   EXPECT_EQ(loss_count(Reason::kArithmetic), Count::kLostArithmetic);
 }
 
