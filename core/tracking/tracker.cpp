@@ -209,6 +209,9 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   const bool missing = misses_fields(field);
+  if (missing) {
+    order_.miss();
+  }
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
@@ -238,6 +241,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const Outcome outcome = observe(field.pixels, predicted, believed, false);
   if (outcome.contradiction) {
+    look_aside(field);
     doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted, reach);
     return;
   }
@@ -246,10 +250,14 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   if (const Reason refused = gate(outcome, predicted, believed, span_s); refused != Reason::kNone) {
+    look_aside(field);
     doubt(refused, predicted, reach);
     return;
   }
   accept(outcome, field, span_s);
+  if (order_.wrong()) {
+    lose(Reason::kFieldOrder);
+  }
 }
 
 // What the last velocity's own uncertainty adds to the prediction: the difference of two places
@@ -304,6 +312,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   contradictions_ = 0;
   to_agree_ = std::max(to_agree_ - 1, 0);
   learn_noise();
+  note_place(field, tool_.local);
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
   if (outcome.fit.used < 3) {
@@ -330,7 +339,7 @@ void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
   to_agree_ = 2;
   doubted_ = reason;
   if (++contradictions_ > kMostContradictions || !motion_.known) {
-    lose(reason);
+    lose(order_explains() ? Reason::kFieldOrder : reason);
     return;
   }
   coast(reason, predicted, reach_mm);
@@ -342,6 +351,9 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
   if (!tool) {
     lose(Reason::kJump);
     return;
+  }
+  if (contradictions_ == 0) {
+    order_.miss();
   }
   state_ = TrackState::kDegraded;
   reason_ = reason;
@@ -400,6 +412,7 @@ void Tracker<S>::reanchor() {
   pose_.origin = pose_.origin + pose_.along(shift);
   pose_.anchor = primary_;
   tool_.local = tool_.local - shift;
+  order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
   for (auto& tube : record_.measured) {
     tube.local = tube.local - shift;
   }

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/words.h"
-#include "core/base/words.h"
 #include "core/overlay/palette.h"
 #include "tests/core/overlay/canvas.h"
 
