@@ -34,7 +34,7 @@ enum class Reason : std::uint8_t {
   kTime,          ///< lost: time ran backwards
   kSequence,      ///< lost: the counter of the fields went back
   kRate,          ///< lost: fields come too seldom for [motion] and the pitch
-  kFieldOrder,    ///< the fields of a frame come in another order than the settings say
+  kFieldOrder,    ///< lost: the fields of a frame come in another order than the settings say
   kArithmetic,    ///< lost: a number left the range of the fixed-point format
   kNoField,       ///< coasting: no field came in time
 };

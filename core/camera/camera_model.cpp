@@ -96,11 +96,13 @@ std::optional<typename CameraModel<S>::Patch> CameraModel<S>::patch_at(
       taylor[power] = taylor[power] + times(taylor[power + 1], t);
     }
   }
+  patch.exponent = inverse.patch_exponent;
+  const Px<S> scale = times(inverse.scale, from_scaled<R>(1, inverse.patch_exponent));
   patch.coefficients[0] = *exact;
   for (std::size_t order = 1; order < 4; ++order) {
     R coefficient = taylor[order];
     for (std::size_t i = 0; i < order; ++i) {
-      coefficient = times(coefficient, inverse.scale);
+      coefficient = times(coefficient, scale);
     }
     patch.coefficients[order] = coefficient;
   }

@@ -35,6 +35,7 @@ class CameraModel {
     Ratio<S> domain2{};
     std::array<Ratio<S>, kRadialCoefficients> coefficients{};
     std::int32_t newton_steps = 0;
+    std::int32_t patch_exponent = 0;  ///< see Patch; 0 but for narrow views of strong distortion
   };
 
   /// Parameters as the tracking path uses them; see make_camera_model() in camera_setup.h.
@@ -54,9 +55,12 @@ class CameraModel {
   /// (one within the picture for the source's camera). Empty outside the domain.
   [[nodiscard]] std::optional<Vector2<Px<S>>> to_pixel(const Vector2<Ratio<S>>& point) const;
 
-  /// The inverse around one point: the radial factor as a cubic of the squared radius.
+  /// The inverse around one point: the radial factor as a cubic of the squared radius, in units of
+  /// 2^-exponent. The radii of a narrow view are small, and how the factor changes by them is
+  /// large: in that unit both fit a Ratio.
   struct Patch {
     Ratio<S> radius2{};
+    std::int32_t exponent = 0;
     std::array<Ratio<S>, 4> coefficients{};
   };
 
@@ -66,8 +70,11 @@ class CameraModel {
 
   /// Image plane to full-frame pixel by the patch: a third of to_pixel()'s cost.
   [[nodiscard]] Vector2<Px<S>> to_pixel(const Vector2<Ratio<S>>& point, const Patch& patch) const {
-    const Ratio<S> off =
+    Ratio<S> off =
         narrow<Ratio<S>>(product(point.x, point.x) + product(point.y, point.y)) - patch.radius2;
+    if (patch.exponent != 0) {
+      off = in_units(off, patch.exponent);
+    }
     Ratio<S> m = patch.coefficients[3];
     for (std::size_t power = 3; power-- > 0;) {
       m = times(m, off) + patch.coefficients[power];
@@ -79,6 +86,13 @@ class CameraModel {
   [[nodiscard]] const Parameters& parameters() const { return parameters_; }
 
  private:
+  /// value * 2^exponent, held at 2, which is as far as a picture reaches.
+  [[nodiscard]] static Ratio<S> in_units(Ratio<S> value, std::int32_t exponent) {
+    const Ratio<S> most = from_scaled<Ratio<S>>(2, exponent);
+    const Ratio<S> held = value > most ? most : (value < -most ? -most : value);
+    return narrow<Ratio<S>>(product(from_scaled<Mm<S>>(std::int64_t{1} << exponent, 0), held));
+  }
+
   /// Distorted over ideal radius, by the square of the ideal one.
   [[nodiscard]] std::optional<Ratio<S>> radial_factor(Ratio<S> radius2) const;
 

@@ -1,6 +1,7 @@
 #include "core/camera/camera_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 
@@ -19,6 +20,34 @@ double farthest_corner(const CameraSettings& settings, double scale_u, double sc
   return std::sqrt(x * x + y * y);
 }
 
+// The smallest exponent whose unit makes a patch's coefficients fit a Ratio wherever it is taken,
+// by the polynomial's derivatives at 33 places. At most the one that makes t the unit: it always
+// fits.
+std::int32_t patch_exponent(const RadialInverse& inverse) {
+  constexpr int kOrders = 4;
+  std::array<double, kOrders> largest{};
+  constexpr int kPlaces = 16;
+  for (int place = -kPlaces; place <= kPlaces; ++place) {
+    auto taylor = inverse.coefficients;
+    const double t = static_cast<double>(place) / kPlaces;
+    for (std::size_t order = 0; order < kOrders; ++order) {
+      for (std::size_t power = taylor.size() - 1; power-- > order;) {
+        taylor[power] += taylor[power + 1] * t;
+      }
+      largest[order] = std::max(largest[order], std::abs(taylor[order]));
+    }
+  }
+  constexpr double kMost = 3.9;  // under the 4 of a Ratio
+  std::int32_t exponent = 0;
+  for (double scale = inverse.scale; scale >= 2.0; scale /= 2.0, ++exponent) {
+    if (largest[1] * scale < kMost && largest[2] * scale * scale < kMost &&
+        largest[3] * scale * scale * scale < kMost) {
+      break;
+    }
+  }
+  return exponent;
+}
+
 template <Scalar S>
 typename CameraModel<S>::Inverse in_format(const RadialInverse& inverse) {
   typename CameraModel<S>::Inverse result;
@@ -30,6 +59,7 @@ typename CameraModel<S>::Inverse in_format(const RadialInverse& inverse) {
     result.coefficients[i] = Ratio<S>(inverse.coefficients[i]);
   }
   result.newton_steps = inverse.newton_steps;
+  result.patch_exponent = std::floating_point<S> ? 0 : patch_exponent(inverse);
   return result;
 }
 

@@ -16,8 +16,8 @@ template <Scalar S>
   if (point.z < from_scaled<Mm<S>>(8, 0)) {
     return std::nullopt;
   }
-  const Mm<S> reach = point.z + point.z;
-  if (absolute(point.x) > reach || absolute(point.y) > reach) {
+  // Twice the depth would leave the format from 1024 mm on.
+  if (absolute(point.x) - point.z > point.z || absolute(point.y) - point.z > point.z) {
     return std::nullopt;
   }
   return Vector2<Ratio<S>>{quotient<Ratio<S>>(point.x, point.z),

@@ -78,19 +78,6 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
   }
 }
 
-// Whether fields are missing before this one: numbers are, or time is where the numbers tell
-// nothing. The shortest time between two fields is the usual one; stamps that waver by less than
-// half of it are no gap.
-template <Scalar S>
-bool Tracker<S>::misses_fields(const Field& field) {
-  const std::int64_t numbers = field.sequence - seen_sequence_;
-  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
-  const bool missing = numbers > std::max<std::int64_t>(usual_numbers_, 1) ||
-                       (usual_span_ns_ > 0 && passed / 3 > usual_span_ns_ / 2);
-  usual_span_ns_ = usual_span_ns_ == 0 ? passed : std::min(usual_span_ns_, passed);
-  return missing;
-}
-
 // Why the tool can be too far from where it is expected, though no picture was unusable. With no
 // field missing either, the limits of [motion] allow too much between two fields even on a perfect
 // picture, or this picture is too poor.
@@ -102,28 +89,6 @@ Reason Tracker<S>::why_too_far(bool missing, Mm<S> reach_mm) const {
   constexpr std::int32_t kDeviations = 3;
   const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_mm<Mm<S>>());
   return reach_mm + least > address_limit_mm<S>(*model_) ? Reason::kRate : Reason::kUncertain;
-}
-
-// The time since the last good field, by its stamps or by the lost sequence numbers, whichever is
-// longer: the shortest time seen for a number is what each lost one took at least.
-template <Scalar S>
-FieldTime Tracker<S>::span_since_good(const Field& field) {
-  if (field.status == FieldStatus::kMissing) {
-    return field.mid_exposure - last_time_;
-  }
-  constexpr std::int64_t kMany = 1'000'000;
-  const std::int64_t lost = std::clamp<std::int64_t>(field.sequence - last_sequence_, 0, kMany);
-  const FieldTime told(lost * std::min<std::int64_t>(per_sequence_ns_, 1'000'000'000));
-  // Learnt from neighbours alone: a field without a gap before it, whatever its numbers grow by.
-  const std::int64_t numbers = field.sequence - seen_sequence_;
-  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
-  if (numbers > 0 && (usual_numbers_ == 0 || numbers <= usual_numbers_)) {
-    const std::int64_t each = passed / numbers;
-    const bool first = numbers != usual_numbers_;
-    per_sequence_ns_ = first ? each : std::min(per_sequence_ns_, each);
-    usual_numbers_ = numbers;
-  }
-  return std::max(field.mid_exposure - last_time_, told);
 }
 
 template <Scalar S>
@@ -220,6 +185,9 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   const bool missing = no_field || misses_fields(field);
+  if (missing) {
+    order_.miss();
+  }
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
@@ -249,6 +217,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const Outcome outcome = observe(field.pixels, predicted, believed, false);
   if (outcome.contradiction) {
+    look_aside(field);
     doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted, reach);
     return;
   }
@@ -257,26 +226,14 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   if (const Reason refused = gate(outcome, predicted, believed, span_s); refused != Reason::kNone) {
+    look_aside(field);
     doubt(refused, predicted, reach);
     return;
   }
   accept(outcome, field, span_s);
-}
-
-// What the last velocity's own uncertainty adds to the prediction: the difference of two places
-// over their interval, carried on over the span.
-template <Scalar S>
-Mm<S> Tracker<S>::velocity_deviation_mm(Unit<S> span_s) const {
-  using M = Mm<S>;
-  if (!motion_.known) {
-    return {};
+  if (order_.wrong()) {
+    lose(Reason::kFieldOrder);
   }
-  const M most = from_scaled<M>(32, 0);
-  const M ratio = motion_.interval_s < times(span_s, from_scaled<Unit<S>>(1, 5))
-                      ? most
-                      : quotient<M>(convert<M>(span_s), convert<M>(motion_.interval_s));
-  const M root_two = from_scaled<M>(1449, 10);
-  return times(times(std::min(picture_deviation_mm_, most), root_two), std::min(ratio, most));
 }
 
 template <Scalar S>
@@ -316,6 +273,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   contradictions_ = 0;
   to_agree_ = std::max(to_agree_ - 1, 0);
   learn_noise();
+  note_place(field, tool_.local);
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
   if (outcome.fit.used < 3) {
@@ -342,7 +300,7 @@ void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
   to_agree_ = 2;
   doubted_ = reason;
   if (++contradictions_ > kMostContradictions || !motion_.known) {
-    lose(reason);
+    lose(order_explains() ? Reason::kFieldOrder : reason);
     return;
   }
   coast(reason, predicted, reach_mm);
@@ -354,6 +312,9 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
   if (!tool) {
     lose(Reason::kJump);
     return;
+  }
+  if (contradictions_ == 0) {
+    order_.miss();
   }
   state_ = TrackState::kDegraded;
   reason_ = reason;
@@ -412,6 +373,7 @@ void Tracker<S>::reanchor() {
   pose_.origin = pose_.origin + pose_.along(shift);
   pose_.anchor = primary_;
   tool_.local = tool_.local - shift;
+  order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
   for (auto& tube : record_.measured) {
     tube.local = tube.local - shift;
   }

@@ -8,6 +8,7 @@
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
 #include "core/tracking/field_measurement.h"
+#include "core/tracking/field_order.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/normal_equations.h"
 #include "core/tracking/picture_memory.h"
@@ -83,6 +84,9 @@ class Tracker {
                             Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
   void learn_noise();
+  void note_place(const Field& field, const Vector2<Mm<S>>& local);
+  void look_aside(const Field& field);
+  [[nodiscard]] bool order_explains() const;
   void accept(const Outcome& outcome, const Field& field, Unit<S> span_s);
   void reanchor();
   void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
@@ -126,6 +130,9 @@ class Tracker {
   PictureLikeness likeness_{};  ///< of the last field that was looked at
   std::int32_t rested_ = 0;     ///< fields in a row with the tool at rest
   bool noisy_ = false;  ///< pictures of a tool at rest differ: equal ones are no new pictures
+  FieldOrder order_{};
+  SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found
+  bool aside_known_ = false;
   bool measured_now_ = false;
   bool primary_known_ = false;
   TubeAddress primary_{};

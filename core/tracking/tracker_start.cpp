@@ -21,6 +21,7 @@ void Tracker<S>::start(const Field& field) {
   per_sequence_ns_ = 0;
   usual_numbers_ = 0;
   usual_span_ns_ = 0;
+  order_.begin();
   record_.plugs.clear();
   record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
   record_.light.region_threshold = model_->region_threshold;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/image_view.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "core/base/vector3.h"
@@ -21,6 +22,7 @@ struct TrackingModel {
   tubesheet::Lattice<S> lattice;
   Mm<S> bore_radius_mm{};
   Weld weld = Weld::kFlush;
+  Parity first_field = Parity::kProgressive;  ///< of an interlaced frame: the one taken first
   std::int32_t picture_width_px = 0;
   std::int32_t picture_height_px = 0;
 

@@ -38,6 +38,9 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   model.tip_mm = {Mm<S>(tip[0]), Mm<S>(tip[1]), Mm<S>(tip[2])};
   model.bore_radius_mm = Mm<S>(settings.tubesheet.bore_mm / 2.0);
   model.weld = settings.tubesheet.weld;
+  model.first_field = settings.camera.scan == Scan::kProgressive ? Parity::kProgressive
+                      : settings.camera.scan == Scan::kOddFirst  ? Parity::kOdd
+                                                                 : Parity::kEven;
   model.picture_width_px = settings.camera.width_px;
   model.picture_height_px = settings.camera.height_px;
   const auto& window = settings.start.window_px;

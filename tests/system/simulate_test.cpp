@@ -98,7 +98,7 @@ TEST(Simulate, WritesTheClaimsAtTheirFields) {
   const SimulatedRun run(kLibrary + "rest-square.toml", {"--window-only"});
 
   EXPECT_EQ(run.folder.read("r.events.csv"),
-            "field,time_s,kind,values,id,seen_field,confirm\n30,,claim,\"40,60\",0,,\n");
+            "field,time_s,kind,values,id,seen_field,confirm\n30,0.500000000,claim,\"40,60\",1,,\n");
   const ProgramRun replayed = run_tubesight(run.folder, {"replay", "r.session.toml", "r.y4m"});
   EXPECT_NE(replayed.out.find("claims: 1, 1 confirmed"), std::string::npos) << replayed.out;
 }

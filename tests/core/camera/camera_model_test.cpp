@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -241,6 +242,45 @@ TYPED_TEST(CameraModelTest, IsEmptyOutsideItsDomain) {
   }
   // absolute(-4) saturates: the flag is the price of a point that far out of range.
   static_cast<void>(take_overflow_flag());
+}
+
+// A narrow view has small radii on the plane and, with the distortion of a short lens' sensor,
+// large derivatives by them.
+TYPED_TEST(CameraModelTest, HasPatchesInNarrowViewsToo) {
+  using S = TypeParam;
+  for (const double efl : {5.0, 7.04, 9.0, 12.0, 16.0, 19.0}) {
+    for (const double k : {-0.004, 0.0, 0.002, 0.005}) {
+      CameraSettings settings;
+      settings.width_px = 640;
+      settings.height_px = 480;
+      settings.focal_length_mm = efl;
+      settings.cell_width_mm = 0.01;
+      settings.cell_height_mm = 0.01;
+      settings.sensor_columns = 640;
+      settings.frame_columns = 640;
+      settings.center_px = {314.6, 247.5};
+      settings.distortion_per_mm2 = k;
+      const CameraModel<S> model = model_of<S>(settings);
+      const double rim = 0.3 / efl;  // 30 px
+      for (const double u : {30.0, 300.0, 610.0}) {
+        for (const double v : {30.0, 240.0, 450.0}) {
+          const auto middle = model.to_plane({Px<S>(u), Px<S>(v)});
+          const auto patch = model.patch_at(middle);
+          ASSERT_TRUE(patch.has_value()) << efl << ", " << k;
+          for (const auto& [x, y] : {std::pair{rim, 0.0}, {-rim, 0.0}, {0.0, rim}, {0.0, -rim}}) {
+            const Vector2<Ratio<S>> point{middle.x + Ratio<S>(x), middle.y + Ratio<S>(y)};
+            const auto exact = model.to_pixel(point);
+            ASSERT_TRUE(exact.has_value()) << efl << ", " << k;
+            const auto near = model.to_pixel(point, *patch);
+            EXPECT_NEAR(static_cast<double>(near.x), static_cast<double>(exact->x), 0.02)
+                << efl << ", " << k << " at " << u << ", " << v;
+            EXPECT_NEAR(static_cast<double>(near.y), static_cast<double>(exact->y), 0.02)
+                << efl << ", " << k << " at " << u << ", " << v;
+          }
+        }
+      }
+    }
+  }
 }
 
 TYPED_TEST(CameraModelTest, IsEmptyWhereThePictureFoldsOver) {

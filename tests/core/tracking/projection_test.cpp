@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/overflow.h"
 #include "tests/core/tracking/tracking_test_support.h"
 
 namespace tubesight::core::tracking {
@@ -99,6 +100,18 @@ TYPED_TEST(Projection, RefusesWhatTheCameraCannotSee) {
   ASSERT_TRUE(plane.has_value());
   EXPECT_NEAR(number(plane->x), 0.25, 1e-6);
   EXPECT_NEAR(number(plane->y), -0.125, 1e-6);
+}
+
+TYPED_TEST(Projection, HoldsForPointsBeyondAMetre) {
+  using M = Mm<TypeParam>;
+  static_cast<void>(take_overflow_flag());
+  const auto plane = to_plane<TypeParam>({M(-700.0), M(1400.0), M(1400.0)});
+  ASSERT_TRUE(plane.has_value());
+  EXPECT_NEAR(number(plane->x), -0.5, 1e-6);
+  EXPECT_NEAR(number(plane->y), 1.0, 1e-6);
+  EXPECT_FALSE(to_plane<TypeParam>({M(-2040.0), M(0.0), M(1000.0)}).has_value());
+  EXPECT_TRUE(to_plane<TypeParam>({M(2040.0), M(-2040.0), M(2040.0)}).has_value());
+  EXPECT_FALSE(take_overflow_flag());
 }
 
 TYPED_TEST(Projection, FindsNoSheetWhereARayRunsAlongItOrAway) {

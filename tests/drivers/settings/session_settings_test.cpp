@@ -213,7 +213,7 @@ TEST_F(SessionSettings, ChecksTheOptionalTables) {
             (Messages{"s.toml:31: motion.max_speed_mm_s: 0, expected a number from 1 to 1600 mm/s",
                       "s.toml:33: edges.region_threshold: 256, expected an integer from 0 to 255",
                       "s.toml:35: verification.within: unknown key, expected one of "
-                      "aligned_within_mm",
+                      "aligned_within_mm, claim_within_s, claim_oldest_s",
                       "s.toml:36: tool_quality: a list of tables, expected [tool_quality] once"}));
 }
 
