@@ -32,9 +32,6 @@ inline constexpr double kLargestSheet_mm = 30000.0;
 /// Two tube-ends must not overlap. Needs a lattice.
 [[nodiscard]] std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet);
 
-/// Distance between the nearest two tubes that `addresses` lets exist, mm. Needs a lattice.
-[[nodiscard]] double shortest_step_mm(const core::TubesheetSettings& tubesheet);
-
 /// All tubes must stand within kLargestSheet_mm.
 [[nodiscard]] std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet);
 
