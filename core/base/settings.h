@@ -53,6 +53,7 @@ struct TubesheetSettings {
   std::array<std::int32_t, 2> rows{};     ///< first and last, inclusive
   std::array<std::int32_t, 2> columns{};  ///< first and last, inclusive
   AddressParity addresses = AddressParity::kAll;
+  double odd_row_shift = 0.0;  ///< rows of odd number stand this share of a column step further
   StaticVector<TubeAddress, kMaxListedTubes> missing;
   StaticVector<TubeAddress, kMaxListedTubes> plugged;
 };

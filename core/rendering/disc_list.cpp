@@ -40,6 +40,9 @@ Range visible_addresses(const Scene& scene, const LightGrid& light) {
     return static_cast<std::int32_t>(
         std::clamp(value + beyond, static_cast<double>(limits[0]), static_cast<double>(limits[1])));
   };
+  // Rows of odd number stand further by the shift: their columns begin and end sooner by it.
+  low_column -= std::max(sheet.odd_row_shift, 0.0);
+  high_column -= std::min(sheet.odd_row_shift, 0.0);
   return {index(std::floor(low_row), -1.0, sheet.rows), index(std::ceil(high_row), 1.0, sheet.rows),
           index(std::floor(low_column), -1.0, sheet.columns),
           index(std::ceil(high_column), 1.0, sheet.columns)};

@@ -35,7 +35,8 @@ Result<void> TubeEnds::configure(const Scene& scene) {
   const double lengths = std::hypot(sheet.row_step_mm[0], sheet.row_step_mm[1]) *
                          std::hypot(sheet.column_step_mm[0], sheet.column_step_mm[1]);
   if (!(std::abs(determinant) > 0.05 * lengths) || !(sheet.bore_mm > 0.0) ||
-      !std::isfinite(lengths) || !std::isfinite(sheet.bore_mm)) {
+      !std::isfinite(lengths) || !std::isfinite(sheet.bore_mm) ||
+      !(std::abs(sheet.odd_row_shift) <= 1.0)) {
     return Unexpected(Error::kInvalidArgument);
   }
   if (const Result<void> assigned = map_.assign(sheet); !assigned.has_value()) {
@@ -49,6 +50,7 @@ Result<void> TubeEnds::configure(const Scene& scene) {
   row_step_mm_ = sheet.row_step_mm;
   column_step_mm_ = sheet.column_step_mm;
   addresses_ = sheet.addresses;
+  odd_row_shift_ = sheet.odd_row_shift;
   bore_mm_ = sheet.bore_mm;
   bore_spread_mm_ = scene.look.bore_spread_mm;
   seed_ = scene.seed;
@@ -88,7 +90,7 @@ TubeEnd TubeEnds::at(TubeAddress address) const {
 
 std::array<double, 2> TubeEnds::lattice_point(TubeAddress address) const {
   const double row = address.row;
-  const double column = address.column;
+  const double column = address.column + (address.row % 2 != 0 ? odd_row_shift_ : 0.0);
   return {origin_mm_[0] + row * row_step_mm_[0] + column * column_step_mm_[0],
           origin_mm_[1] + row * row_step_mm_[1] + column * column_step_mm_[1]};
 }
@@ -103,11 +105,13 @@ NearestTube TubeEnds::nearest(const std::array<double, 2>& point_mm) const {
   // Far beyond any sheet an address would not fit; the farthest one serves there.
   constexpr double kFar = 1e8;
   const auto near_row = static_cast<std::int32_t>(std::lround(std::clamp(row, -kFar, kFar)));
-  const auto near_column = static_cast<std::int32_t>(std::lround(std::clamp(column, -kFar, kFar)));
   NearestTube best;
   best.offset_mm = std::numeric_limits<double>::infinity();
   constexpr std::int32_t kReach = 3;  // oblique steps: the nearest need not be the rounded one
   for (std::int32_t r = near_row - kReach; r <= near_row + kReach; ++r) {
+    const double in_row = column - (r % 2 != 0 ? odd_row_shift_ : 0.0);
+    const auto near_column =
+        static_cast<std::int32_t>(std::lround(std::clamp(in_row, -kFar, kFar)));
     for (std::int32_t c = near_column - kReach; c <= near_column + kReach; ++c) {
       const bool odd = ((r + c) & 1) != 0;
       if ((addresses_ == AddressParity::kEvenSum && odd) ||

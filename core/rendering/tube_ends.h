@@ -31,8 +31,8 @@ struct NearestTube {
 /// The true tube-ends of a scene by address. About 400 KB: static or heap.
 class TubeEnds {
  public:
-  /// Takes the scene's sheet over. kInvalidArgument: first address beyond last, parallel steps or a
-  /// bore not above zero.
+  /// Takes the scene's sheet over. kInvalidArgument: first address beyond last, parallel steps, a
+  /// shift of odd rows above a step or a bore not above zero.
   [[nodiscard]] Result<void> configure(const Scene& scene);
 
   /// What stands at `address`.
@@ -54,6 +54,7 @@ class TubeEnds {
   std::array<double, 2> row_step_mm_{};
   std::array<double, 2> column_step_mm_{};
   AddressParity addresses_ = AddressParity::kAll;
+  double odd_row_shift_ = 0.0;
   double bore_mm_ = 0.0;
   double bore_spread_mm_ = 0.0;
   std::uint64_t seed_ = 0;

@@ -89,19 +89,17 @@ void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
   *place = candidate;
 }
 
-}  // namespace
-
+// Adds the addresses of the window that are whole steps of the basis from `first`.
 template <Scalar S>
-void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                     const SheetPose<S>& pose, CandidateList<S>& candidates) {
-  candidates.clear();
-  const Block<S> block = block_in_window<S>(model, pose);
+void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+               const SheetPose<S>& pose, const Block<S>& block, TubeAddress first,
+               CandidateList<S>& candidates) {
   const auto& basis = model.lattice.parameters().basis;
   const std::int32_t optimum_u = to_scaled(model.optimum_px.x, 0);
   const std::int32_t optimum_v = to_scaled(model.optimum_px.y, 0);
   const auto address_at = [&](std::int32_t i, std::int32_t j) {
-    return TubeAddress{pose.anchor.row + i * basis[0].row + j * basis[1].row,
-                       pose.anchor.column + i * basis[0].column + j * basis[1].column};
+    return TubeAddress{first.row + i * basis[0].row + j * basis[1].row,
+                       first.column + i * basis[0].column + j * basis[1].column};
   };
   const auto place = [&](std::int32_t i, std::int32_t j) {
     return pose.origin + pose.along(model.lattice.offset(pose.anchor, address_at(i, j)));
@@ -136,6 +134,24 @@ void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& m
           (u - optimum_u) * (u - optimum_u) + (v - optimum_v) * (v - optimum_v);
       insert<S>(candidates, candidate);
     }
+  }
+}
+
+}  // namespace
+
+template <Scalar S>
+void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                     const SheetPose<S>& pose, CandidateList<S>& candidates) {
+  candidates.clear();
+  Block<S> block = block_in_window<S>(model, pose);
+  list_from<S>(model, map, pose, block, pose.anchor, candidates);
+  if (model.lattice.parameters().two_kinds) {
+    // Half a step of the basis off at most, either way.
+    for (std::size_t i = 0; i < 2; ++i) {
+      --block.low[i];
+      ++block.high[i];
+    }
+    list_from<S>(model, map, pose, block, model.lattice.other_kind(pose.anchor), candidates);
   }
 }
 

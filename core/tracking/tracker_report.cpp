@@ -90,7 +90,7 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
                             micrometres(motion_.velocity_mm_s.y) / 256};
   const TubeAddress nearest = model_->lattice.nearest(shown_.anchor, tool_shown_.local);
   const auto off = tool_shown_.local - model_->lattice.offset(shown_.anchor, nearest);
-  const M to_edge = model_->lattice.distance_to_cell_edge(off);
+  const M to_edge = model_->lattice.distance_to_cell_edge(nearest, off);
   const M margin = quotient<M>(to_edge - strayed_mm_, predicted_deviation_mm_);
   sighting.margin_known = true;
   sighting.margin_permyriad =

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/tubesheet/addresses.h"
+
 namespace tubesight::core::tubesheet {
 
 Result<void> SheetMap::assign(const TubesheetSettings& settings) {
@@ -23,9 +25,7 @@ TubeState SheetMap::state(TubeAddress address) const {
       address.column > last_.column) {
     return TubeState::kAbsent;
   }
-  const bool odd = ((address.row + address.column) & 1) != 0;
-  if ((addresses_ == AddressParity::kEvenSum && odd) ||
-      (addresses_ == AddressParity::kOddSum && !odd)) {
+  if (!exists(addresses_, address)) {
     return TubeState::kAbsent;
   }
   if (std::binary_search(missing_.begin(), missing_.end(), address)) {

@@ -1,9 +1,13 @@
 #include "core/tubesheet/tubesheet_setup.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "core/base/instantiate.h"
+#include "core/base/static_vector.h"
 
 namespace tubesight::core::tubesheet {
 namespace {
@@ -23,6 +27,10 @@ Step combined(const Step& a, std::int32_t count, const Step& b) {
           a.y + n * b.y};
 }
 
+std::int32_t nearest_whole(double value) {
+  return static_cast<std::int32_t>(value + (value < 0.0 ? -0.5 : 0.5));
+}
+
 // Gauss's reduction of a plane lattice: the result's first step is the shortest there is. A pair
 // whose angle is between 5 and 175 degrees reduces in a few rounds; the bound is for bad input.
 void reduce(Step& a, Step& b) {
@@ -31,11 +39,129 @@ void reduce(Step& a, Step& b) {
       std::swap(a, b);
     }
     const double share = (a.x * b.x + a.y * b.y) / a.length2();
-    const auto count = static_cast<std::int32_t>(share + (share < 0.0 ? -0.5 : 0.5));
+    const std::int32_t count = nearest_whole(share);
     if (count == 0) {
       return;
     }
     b = combined(b, -count, a);
+  }
+}
+
+// The short steps of a numbering, in double precision.
+struct ShortSteps {
+  // From tubes to tubes of their kind: a reduced basis, the shorter first.
+  Step a;
+  Step b;
+  bool two_kinds = false;
+  Step to_odd_rows;  // with two kinds: in the cell of the basis around zero
+};
+
+ShortSteps short_steps(const TubesheetSettings& settings) {
+  const Step row{{1, 0}, settings.row_step_mm[0], settings.row_step_mm[1]};
+  const Step column{{0, 1}, settings.column_step_mm[0], settings.column_step_mm[1]};
+  const bool every_other = settings.addresses != AddressParity::kAll;
+  ShortSteps steps;
+  steps.a = every_other ? combined(row, 1, column) : row;
+  steps.b = every_other ? combined(row, -1, column) : column;
+  if (settings.odd_row_shift != 0.0) {
+    steps.two_kinds = true;
+    steps.to_odd_rows = steps.a;
+    steps.to_odd_rows.x += settings.odd_row_shift * column.x;
+    steps.to_odd_rows.y += settings.odd_row_shift * column.y;
+    steps.a = combined({}, 2, row);
+    steps.b = combined({}, every_other ? 2 : 1, column);
+  }
+  reduce(steps.a, steps.b);
+  if (steps.two_kinds) {
+    const Step& a = steps.a;
+    const Step& b = steps.b;
+    const Step odd = steps.to_odd_rows;
+    const double cell = a.x * b.y - a.y * b.x;
+    const std::int32_t along_a = nearest_whole((odd.x * b.y - odd.y * b.x) / cell);
+    const std::int32_t along_b = nearest_whole((a.x * odd.y - a.y * odd.x) / cell);
+    steps.to_odd_rows = combined(combined(odd, -along_a, a), -along_b, b);
+  }
+  return steps;
+}
+
+// Tubes around a tube in an even row, among which are all that its cell may border on.
+using StepList = StaticVector<Step, 33>;
+
+StepList steps_around(const ShortSteps& steps) {
+  StepList around;
+  // A cell lies within that of the tube's own kind alone, whose neighbours are known.
+  for (std::int32_t i = -1; i <= 1; ++i) {
+    for (std::int32_t j = -1; j <= 1; ++j) {
+      if (i != 0 || j != 0) {
+        static_cast<void>(around.try_push_back(combined(combined({}, i, steps.a), j, steps.b)));
+      }
+    }
+  }
+  if (!steps.two_kinds) {
+    return around;
+  }
+  // Of the other kind: the cells of one kind reach half of a to either side along a, so that
+  // neighbours are within a whole a of each other in that direction; and no neighbour is farther
+  // off than twice the way to a corner, the square root of a^2 + b^2 at most. In coordinates of the
+  // basis (60 to 120 degrees apart) both stay below 2; the middle one is half a step off.
+  for (std::int32_t i = -2; i <= 2; ++i) {
+    for (std::int32_t j = -2; j <= 2; ++j) {
+      static_cast<void>(
+          around.try_push_back(combined(combined(steps.to_odd_rows, i, steps.a), j, steps.b)));
+    }
+  }
+  return around;
+}
+
+// Whether the line halfway to `step` has a piece that is nearer to zero than to any other tube: a
+// side of the cell. Its points are step / 2 + t u, with u across the step; another tube m leaves
+// those with (step / 2 + t u) m <= m^2 / 2.
+bool is_side(const StepList& around, const Step& step) {
+  constexpr double kLeastSide = 1e-6;  // of the step; shorter sides are corners
+  const double ux = -step.y;
+  const double uy = step.x;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  for (const Step& m : around) {
+    const double along = ux * m.x + uy * m.y;
+    const double left = (m.length2() - (step.x * m.x + step.y * m.y)) / 2.0;
+    if (std::abs(along) <= 1e-9 * step.length2()) {
+      if (left < -1e-9 * step.length2()) {
+        return false;
+      }
+    } else if (along > 0.0) {
+      high = std::min(high, left / along);
+    } else {
+      low = std::max(low, left / along);
+    }
+  }
+  return high - low > kLeastSide;
+}
+
+double shortest_of(const ShortSteps& steps, const StepList& around) {
+  double least2 = steps.a.length2();
+  if (steps.two_kinds) {
+    for (const Step& step : around) {
+      least2 = std::min(least2, step.length2());
+    }
+  }
+  return std::sqrt(least2);
+}
+
+template <Scalar S>
+void fill_neighbours(const ShortSteps& steps, const StepList& around,
+                     typename Lattice<S>::Parameters& p) {
+  std::size_t next = 0;
+  for (const Step& step : around) {
+    if (next == p.neighbours.size() || (steps.two_kinds && !is_side(around, step))) {
+      continue;
+    }
+    const double length = std::sqrt(step.length2());
+    p.neighbours[next++] = {
+        step.address, {Unit<S>(step.x / length), Unit<S>(step.y / length)}, Mm<S>(length / 2.0)};
+  }
+  for (; next < p.neighbours.size(); ++next) {
+    p.neighbours[next] = p.neighbours[0];
   }
 }
 
@@ -49,18 +175,17 @@ Result<Lattice<S>> make_lattice(const TubesheetSettings& settings) {
   const auto fits = [](const Step& step) {
     return step.length2() >= 1.0 && step.length2() <= 250000.0;
   };
-  if (!fits(row) || !fits(column)) {
+  const double share = settings.odd_row_shift;
+  if (!fits(row) || !fits(column) || !(share >= -1.0 && share <= 1.0)) {
     return Unexpected(Error::kOutOfRange);
   }
   const double area = row.x * column.y - row.y * column.x;
   if (!(area * area > 0.0075 * row.length2() * column.length2())) {  // sine of 5 degrees, squared
     return Unexpected(Error::kIllConditioned);
   }
-  const bool every_other = settings.addresses != AddressParity::kAll;
-  Step a = every_other ? combined(row, 1, column) : row;
-  Step b = every_other ? combined(row, -1, column) : column;
-  reduce(a, b);
-  const double shortest = std::sqrt(a.length2());
+  const ShortSteps steps = short_steps(settings);
+  const StepList around = steps_around(steps);
+  const double shortest = shortest_of(steps, around);
   if (!(shortest >= 2.0)) {
     return Unexpected(Error::kOutOfRange);
   }
@@ -68,26 +193,41 @@ Result<Lattice<S>> make_lattice(const TubesheetSettings& settings) {
   typename Lattice<S>::Parameters p;
   p.row_step = {Mm<S>(row.x), Mm<S>(row.y)};
   p.column_step = {Mm<S>(column.x), Mm<S>(column.y)};
+  p.odd_row_shift = {Mm<S>(share * column.x), Mm<S>(share * column.y)};
+  const Step& a = steps.a;
+  const Step& b = steps.b;
   p.basis = {a.address, b.address};
   const double cell = a.x * b.y - a.y * b.x;
   p.inverse[0] = {Unit<S>(b.y / cell), Unit<S>(-b.x / cell)};
   p.inverse[1] = {Unit<S>(-a.y / cell), Unit<S>(a.x / cell)};
+  p.two_kinds = steps.two_kinds;
+  p.to_odd_rows = steps.to_odd_rows.address;
   p.shortest_step = Mm<S>(shortest);
-  p.every_other = every_other;
-  p.parity = settings.addresses == AddressParity::kOddSum ? 1 : 0;
-  std::size_t next = 0;
-  for (std::int32_t i = -1; i <= 1; ++i) {
-    for (std::int32_t j = -1; j <= 1; ++j) {
-      if (i == 0 && j == 0) {
-        continue;
-      }
-      const Step step = combined(combined({}, i, a), j, b);
-      const double length = std::sqrt(step.length2());
-      p.neighbours[next++] = {
-          step.address, {Unit<S>(step.x / length), Unit<S>(step.y / length)}, Mm<S>(length / 2.0)};
-    }
-  }
+  p.addresses = settings.addresses;
+  fill_neighbours<S>(steps, around, p);
   return Lattice<S>(p);
+}
+
+std::array<double, 2> center_mm(const TubesheetSettings& settings, TubeAddress address) {
+  const double columns = address.column;
+  const double shift = in_odd_row(address) ? settings.odd_row_shift : 0.0;
+  std::array<double, 2> at{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    at[i] = settings.origin_mm[i] + address.row * settings.row_step_mm[i] +
+            (columns + shift) * settings.column_step_mm[i];
+  }
+  return at;
+}
+
+double shortest_step_mm(const TubesheetSettings& settings) {
+  const ShortSteps steps = short_steps(settings);
+  return shortest_of(steps, steps_around(steps));
+}
+
+bool is_symmetry(const TubesheetSettings& settings, TubeAddress step) {
+  const bool keeps_parity =
+      settings.addresses == AddressParity::kAll || exists(AddressParity::kEvenSum, step);
+  return keeps_parity && (settings.odd_row_shift == 0.0 || !in_odd_row(step));
 }
 
 #define TUBESIGHT_INSTANTIATE(S) \

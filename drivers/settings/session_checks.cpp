@@ -6,12 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/tubesheet/addresses.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/files/decimal.h"
 
 namespace tubesight::drivers {
 namespace {
 
 using core::TubeAddress;
+using core::tubesheet::center_mm;
 using Vector = std::array<double, 2>;
 
 /// For numbers that were calculated: four significant digits.
@@ -41,16 +44,6 @@ double fatness(const Vector& a, const Vector& b, const Vector& c) {
 
 /// Below it the corners count as in one line; the source's three tubes give 0.5.
 constexpr double kThinnest = 0.05;
-
-Vector place_mm(const core::TubesheetSettings& tubesheet, TubeAddress address) {
-  return plus(plus(tubesheet.origin_mm, tubesheet.row_step_mm, address.row),
-              tubesheet.column_step_mm, address.column);
-}
-
-bool exists_by_parity(core::AddressParity parity, TubeAddress address) {
-  const bool odd = ((address.row ^ address.column) & 1) != 0;
-  return parity == core::AddressParity::kAll || odd == (parity == core::AddressParity::kOddSum);
-}
 
 }  // namespace
 
@@ -120,37 +113,19 @@ std::string why_no_lattice(const core::TubesheetSettings& tubesheet) {
   return {};
 }
 
-double shortest_step_mm(const core::TubesheetSettings& tubesheet) {
-  Vector a = tubesheet.row_step_mm;
-  Vector b = tubesheet.column_step_mm;
-  if (tubesheet.addresses != core::AddressParity::kAll) {
-    // Neighbours differ by an even sum: these two steps span all such.
-    a = plus(tubesheet.row_step_mm, tubesheet.column_step_mm, 1.0);
-    b = plus(tubesheet.row_step_mm, tubesheet.column_step_mm, -1.0);
-  }
-  // Gauss' reduction: the longer loses multiples of the shorter until that stops paying. Steps from
-  // 1 to 1000 mm need a handful of rounds.
-  constexpr int kMostRounds = 64;
-  for (int round = 0; round < kMostRounds; ++round) {
-    if (dot(a, a) > dot(b, b)) {
-      std::swap(a, b);
-    }
-    const double times = std::round(dot(a, b) / dot(a, a));
-    if (times == 0.0) {
-      break;
-    }
-    b = plus(b, a, -times);
-  }
-  return length(a);
-}
-
 std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet) {
-  const double step_mm = shortest_step_mm(tubesheet);
+  const double step_mm = core::tubesheet::shortest_step_mm(tubesheet);
   if (tubesheet.bore_mm < step_mm) {
     return {};
   }
+  // Steps of which one alone is too short, and addresses missing between: shares of a step written
+  // as steps. There is a better way to say it.
+  const bool shares =
+      !tubesheet.missing.empty() &&
+      tubesheet.bore_mm < std::max(length(tubesheet.row_step_mm), length(tubesheet.column_step_mm));
   return number_text(tubesheet.bore_mm) + ", expected less than the " + rounded_text(step_mm) +
-         " mm between neighbouring tubes";
+         " mm between neighbouring tubes" +
+         (shares ? ", missing ones included (a sheet of shifted rows has an odd_row_shift)" : "");
 }
 
 std::string why_fields_too_seldom(const core::MotionSettings& motion,
@@ -160,7 +135,7 @@ std::string why_fields_too_seldom(const core::MotionSettings& motion,
   constexpr double kLimit = 0.4;
   constexpr double kNeverKnown_mm = 0.3;
   constexpr double kLongest_s = 1.0;
-  const double step_mm = shortest_step_mm(tubesheet);
+  const double step_mm = core::tubesheet::shortest_step_mm(tubesheet);
   const double room_mm = kLimit * step_mm - kNeverKnown_mm;
   const double reach_mm = std::min(motion.max_acceleration_mm_s2 * span_s * span_s,
                                    2.0 * motion.max_speed_mm_s * span_s);
@@ -190,9 +165,12 @@ std::string why_fields_too_seldom(const core::MotionSettings& motion,
 }
 
 std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet) {
-  for (const std::int32_t row : tubesheet.rows) {
+  const auto [first, last] = tubesheet.rows;
+  // With a shift the farthest may stand in the first or last but one row.
+  for (const std::int32_t row :
+       {first, last, std::min(first + 1, last), std::max(last - 1, first)}) {
     for (const std::int32_t column : tubesheet.columns) {
-      const Vector place = place_mm(tubesheet, {row, column});
+      const Vector place = center_mm(tubesheet, {row, column});
       if (std::max(std::abs(place[0]), std::abs(place[1])) > kLargestSheet_mm) {
         return address_text({row, column}) + " would stand at (" + rounded_text(place[0]) + ", " +
                rounded_text(place[1]) + ") mm, expected within 30000 mm of the origin";
@@ -217,7 +195,7 @@ std::string why_no_tube(const core::TubesheetSettings& tubesheet, TubeAddress ad
   if (!in_ranges(tubesheet, address)) {
     return address_text(address) + " is outside the tubesheet, expected " + ranges_text(tubesheet);
   }
-  if (!exists_by_parity(tubesheet.addresses, address)) {
+  if (!core::tubesheet::exists(tubesheet.addresses, address)) {
     return address_text(address) + " does not exist, expected an " +
            (tubesheet.addresses == core::AddressParity::kEvenSum ? "even" : "odd") +
            " sum of row and column";
@@ -244,9 +222,9 @@ std::string why_clicks_contradict(const core::StartSettings& start,
         const double seen = fatness(tubes[i].at_px, tubes[j].at_px, tubes[k].at_px);
         double meant = 0.0;
         if (tubesheet != nullptr) {
-          meant = fatness(place_mm(*tubesheet, tubes[i].address),
-                          place_mm(*tubesheet, tubes[j].address),
-                          place_mm(*tubesheet, tubes[k].address));
+          meant = fatness(center_mm(*tubesheet, tubes[i].address),
+                          center_mm(*tubesheet, tubes[j].address),
+                          center_mm(*tubesheet, tubes[k].address));
         }
         fattest_on_sheet = std::max(fattest_on_sheet, std::abs(meant));
         if (std::abs(seen) > std::abs(fattest)) {

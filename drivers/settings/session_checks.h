@@ -32,9 +32,6 @@ inline constexpr double kLargestSheet_mm = 30000.0;
 /// Two tube-ends must not overlap. Needs a lattice.
 [[nodiscard]] std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet);
 
-/// Distance between the nearest two tubes that `addresses` lets exist, mm. Needs a lattice.
-[[nodiscard]] double shortest_step_mm(const core::TubesheetSettings& tubesheet);
-
 /// From field to field, `span_s` apart, the tool must not be able to reach 0.4 of the way to
 /// another tube: no track would live longer than two fields. Says which values would do. Needs a
 /// lattice.

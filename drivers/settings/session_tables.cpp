@@ -27,6 +27,7 @@ constexpr NumberRange kToolPosition{-1000.0, 1000.0, " mm"};
 constexpr NumberRange kAngle{-360.0, 360.0, " degrees"};
 constexpr NumberRange kSheetPlace{-kLargestSheet_mm, kLargestSheet_mm, " mm"};
 constexpr NumberRange kStep{-500.0, 500.0, " mm"};
+constexpr NumberRange kShift{-1.0, 1.0, " of a column step"};
 constexpr NumberRange kBore{1.0, 200.0, " mm"};
 constexpr WholeRange kAddress{-9999, 9999};
 constexpr NumberRange kSpeed{1.0, 1600.0, " mm/s"};
@@ -222,9 +223,11 @@ void read_tubesheet(TableReader& table, core::TubesheetSettings& tubesheet) {
   const bool rows = read_range(table, "rows", tubesheet.rows);
   const bool columns = read_range(table, "columns", tubesheet.columns);
   tubesheet.addresses = optional_word<core::AddressParity>(table, "addresses", kAddressWords);
+  tubesheet.odd_row_shift = 0.0;
+  const bool shift = table.optional_number("odd_row_shift", kShift, tubesheet.odd_row_shift);
   read_addresses(table, "missing", tubesheet, rows && columns, tubesheet.missing);
   read_addresses(table, "plugged", tubesheet, rows && columns, tubesheet.plugged);
-  if (row_step && column_step) {
+  if (row_step && column_step && shift) {
     std::string wrong = why_no_lattice(tubesheet);
     if (!wrong.empty()) {
       table.complain("column_step_mm", wrong);

@@ -23,6 +23,7 @@
 #include "board/bench/campaign/random_clicks.h"
 #include "board/bench/campaign/random_plant.h"
 #include "board/bench/campaign/random_source.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "tests/benchmark/line_plot.h"
 
 namespace tubesight::benchmark {
@@ -119,7 +120,7 @@ std::array<double, 2> tube_near(const core::TubesheetSettings& sheet, double x, 
   double least = 1e9;
   for (std::int32_t row = -kFarthest; row <= kFarthest; ++row) {
     for (std::int32_t column = -kFarthest; column <= kFarthest; ++column) {
-      const auto at = board::campaign::center_mm(sheet, {row, column});
+      const auto at = core::tubesheet::center_mm(sheet, {row, column});
       const double off = std::hypot(at[0] - x, at[1] - y);
       if (open_at(row, column) && off < least) {
         least = off;

@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(
         SettingsMistake{"UnknownKey", "bore_mm = 18.6\n", "bore_mm = 18.6\nbore_inch = 0.7\n",
                         "s.toml:20: tubesheet.bore_inch: unknown key, expected one of origin_mm, "
                         "row_step_mm, column_step_mm, bore_mm, weld, rows, columns, addresses, "
-                        "missing, plugged"},
+                        "odd_row_shift, missing, plugged"},
         SettingsMistake{"MissingKey", "bore_mm = 18.6\n", "",
                         "s.toml:16: tubesheet.bore_mm: missing, expected a number from 1 to 200 "
                         "mm"},

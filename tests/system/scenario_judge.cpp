@@ -8,7 +8,7 @@
 #include "board/bench/script/simulated_box.h"
 #include "core/base/names.h"
 #include "core/session/session.h"
-#include "drivers/settings/session_checks.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::tests {
@@ -85,7 +85,7 @@ ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
     return verdict;
   }
   verdict.played = true;
-  const double pitch_mm = drivers::shortest_step_mm(scenario.told.tubesheet);
+  const double pitch_mm = core::tubesheet::shortest_step_mm(scenario.told.tubesheet);
   const drivers::SimulatedField& field = box->field();
   while (box->turn()) {
     const core::Sighting& sighting = box->output().sighting;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -74,6 +76,104 @@ TEST(Simulate, GivesARecordingOnWhichReplayIsRight) {
     EXPECT_EQ(field.at("state"), "tracking");
   }
   expect_right(run);
+}
+
+TEST(Simulate, ShiftedRowsAreFollowedFromRowToRow) {
+  const SimulatedRun run(kLibrary + "moves-zigzag.toml", {"--window-only"});
+
+  EXPECT_NE(run.folder.read("r.session.toml").find("\nodd_row_shift = 0.25\n"), std::string::npos);
+  std::set<std::string> rows;
+  for (const Row& field : run.fields) {
+    EXPECT_EQ(field.at("state"), "tracking");
+    rows.insert(field.at("tool_row"));
+  }
+  rows.erase("");  // midway between tubes none is named
+  expect_right(run);
+  EXPECT_EQ(rows, (std::set<std::string>{"40", "41", "42", "43", "44", "45", "46"}));
+}
+
+/// The address that the oblique steps give a tube of the sheet with half a step of shift.
+std::int64_t oblique_column(std::int64_t row, std::int64_t column) { return column - row / 2; }
+
+/// A session of the latter, in the words of the former.
+std::string in_oblique_words(const std::string& session) {
+  std::string text = replaced(session, "row_step_mm = [0.0, 22.0]", "row_step_mm = [12.7, 22.0]");
+  text = replaced(text, "odd_row_shift = 0.5\n", "");
+  text = replaced(text, "columns = [0, 120]", "columns = [-60, 120]");
+  const std::regex click("row = (\\d+), column = (\\d+)");
+  std::string all;
+  for (std::smatch found; std::regex_search(text, found, click); text = found.suffix()) {
+    const std::int64_t row = std::stoll(found[1]);
+    all += found.prefix().str() + "row = " + found[1].str() +
+           ", column = " + std::to_string(oblique_column(row, std::stoll(found[2])));
+  }
+  return all + text;
+}
+
+TEST(Simulate, HalfAStepOfShiftIsTheObliqueLatticeToReplayAndPose) {
+  std::string scenario = replaced(small_scenario_text(), "row_step_mm = [0.0, 25.4]",
+                                  "odd_row_shift = 0.5\nrow_step_mm = [0.0, 22.0]");
+  scenario = scenario.substr(0, scenario.find("[[fault]]")) +
+             "[[step]]\nto = [43, 61]\n[[step]]\nrest_s = 0.1\n";
+  const TemporaryFolder folder;
+  folder.write("s.toml", scenario);
+  ASSERT_EQ(run_tubesight(folder, {"simulate", "s.toml", "--out", "r"}).status, 0);
+  folder.write("oblique.toml", in_oblique_words(folder.read("r.session.toml")));
+  for (const std::string session : {"r.session.toml", "oblique.toml"}) {
+    ASSERT_EQ(
+        run_tubesight(folder, {"replay", session, "r.y4m", "--fields", session + ".f.csv"}).status,
+        0);
+    ASSERT_EQ(run_tubesight(folder, {"pose", session, "r.y4m", "--csv", session + ".p.csv"}).status,
+              0);
+  }
+
+  const std::vector<Row> shifted = read_rows(folder.read("r.session.toml.f.csv"));
+  const std::vector<Row> oblique = read_rows(folder.read("oblique.toml.f.csv"));
+  ASSERT_EQ(shifted.size(), oblique.size());
+  ASSERT_GT(shifted.size(), 20U);
+  int named = 0;
+  for (std::size_t i = 0; i < shifted.size(); ++i) {
+    EXPECT_EQ(shifted[i].at("state"), "tracking") << i;
+    EXPECT_EQ(shifted[i].at("tracked"), oblique[i].at("tracked")) << i;
+    EXPECT_EQ(shifted[i].at("tool_row"), oblique[i].at("tool_row")) << i;
+    if (shifted[i].at("tool_row").empty()) {
+      continue;  // midway between tubes
+    }
+    ++named;
+    EXPECT_EQ(oblique_column(std::stoll(shifted[i].at("tool_row")),
+                             std::stoll(shifted[i].at("tool_column"))),
+              std::stoll(oblique[i].at("tool_column")))
+        << i;
+    EXPECT_NEAR(number(shifted[i], "tool_offset_mm"), number(oblique[i], "tool_offset_mm"), 1e-3);
+  }
+  EXPECT_GT(named, 20);
+  EXPECT_EQ(shifted.back().at("tool_row"), "43");
+  const Row a = read_rows(folder.read("r.session.toml.p.csv")).at(0);
+  const Row b = read_rows(folder.read("oblique.toml.p.csv")).at(0);
+  EXPECT_EQ(a.at("tubes"), b.at("tubes"));
+  for (const char* name : {"tool_x_mm", "tool_y_mm", "tool_z_mm", "offset_mm"}) {
+    EXPECT_NEAR(number(a, name), number(b, name), 2e-4) << name;
+  }
+}
+
+TEST(Simulate, PoseKnowsShiftedRows) {
+  const TemporaryFolder folder;
+  folder.write("s.toml", replaced(replaced(small_scenario_text(), "bore_mm = 18.6",
+                                           "odd_row_shift = -0.25\nbore_mm = 18.6"),
+                                  "tube = [40, 60]", "tube = [41, 60]"));
+  ASSERT_EQ(run_tubesight(folder, {"simulate", "s.toml", "--out", "r"}).status, 0);
+
+  const ProgramRun run =
+      run_tubesight(folder, {"pose", "r.session.toml", "r.y4m", "--csv", "p.csv"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Row pose = read_rows(folder.read("p.csv")).at(0);
+  // Column 60 of a row of odd number: 60 steps of 25.4 mm less a quarter.
+  EXPECT_NEAR(number(pose, "tool_x_mm"), 1517.65, 0.05);
+  EXPECT_NEAR(number(pose, "tool_y_mm"), 1041.4, 0.05);
+  EXPECT_NEAR(number(pose, "tool_z_mm"), -60.0, 0.05);
+  EXPECT_EQ(pose.at("row") + "," + pose.at("column"), "41,60");
+  EXPECT_GT(number(pose, "tubes"), 20);
 }
 
 TEST(Simulate, FieldsLostOutOfAFrameKeepTheirPlaceAsDamagedOnes) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "board/bench/campaign/random_plant.h"
+#include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -15,6 +16,7 @@ using core::TubeAddress;
 using core::rendering::Truth;
 using core::rendering::TubeEndKind;
 using core::rendering::TubeImage;
+using core::tubesheet::center_mm;
 using drivers::Scenario;
 
 /// A tube-end that the operator can see.

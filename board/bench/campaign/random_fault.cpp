@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 
+#include "core/tubesheet/tubesheet_setup.h"
+
 namespace tubesight::board::campaign {
 namespace {
 
-using core::AddressParity;
 using drivers::Fault;
 using drivers::FaultKind;
 using drivers::Scenario;
@@ -104,9 +105,8 @@ class FaultDrawing {
     while (!exists) {
       fault.rows = random_.whole(-2, 2);
       fault.columns = random_.whole(-2, 2);
-      const bool odd = (fault.rows + fault.columns) % 2 != 0;
       exists = (fault.rows != 0 || fault.columns != 0) &&
-               !(odd && scenario_.scene.sheet.addresses != AddressParity::kAll);
+               core::tubesheet::is_symmetry(scenario_.scene.sheet, {fault.rows, fault.columns});
     }
   }
 

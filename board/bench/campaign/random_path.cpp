@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "board/bench/campaign/random_plant.h"
+#include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -18,6 +19,7 @@ using core::kinematics::ToolPath;
 using core::kinematics::ToolPlace;
 using core::rendering::TubeEndKind;
 using core::rendering::TubeEnds;
+using core::tubesheet::center_mm;
 using drivers::Scenario;
 
 constexpr double kWanted_s = 1.15;   // pieces are added until the path lasts so long

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tubesheet/addresses.h"
+#include "core/tubesheet/tubesheet_setup.h"
+
 namespace tubesight::board::campaign {
 namespace {
 
@@ -10,6 +13,7 @@ using core::AddressParity;
 using core::TubeAddress;
 using core::TubesheetSettings;
 using core::rendering::PlugKind;
+using core::tubesheet::center_mm;
 using drivers::Scenario;
 
 constexpr std::int32_t kMostSeed = 2'000'000'000;  // what scenario files hold
@@ -85,9 +89,7 @@ void draw_plugs(RandomSource& random, Scenario& scenario) {
   for (std::int32_t row = 0; row <= kLastAddress; ++row) {
     for (std::int32_t column = 0; column <= kLastAddress; ++column) {
       const TubeAddress address{row, column};
-      const bool odd = (row + column) % 2 != 0;
-      const bool absent = (sheet.addresses == AddressParity::kEvenSum && odd) ||
-                          (sheet.addresses == AddressParity::kOddSum && !odd) ||
+      const bool absent = !core::tubesheet::exists(sheet.addresses, address) ||
                           std::find(missing.begin(), missing.end(), address) != missing.end();
       if (!random.chance(share) || absent) {
         continue;
@@ -143,15 +145,6 @@ double pitch_mm(const TubesheetSettings& sheet) {
     return std::min(std::hypot(r[0], r[1]), std::hypot(c[0], c[1]));
   }
   return std::hypot(r[0] + c[0], r[1] + c[1]);
-}
-
-std::array<double, 2> center_mm(const TubesheetSettings& sheet, TubeAddress address) {
-  std::array<double, 2> at{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    at[i] = sheet.origin_mm[i] + address.row * sheet.row_step_mm[i] +
-            address.column * sheet.column_step_mm[i];
-  }
-  return at;
 }
 
 }  // namespace tubesight::board::campaign

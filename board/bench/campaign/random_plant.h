@@ -21,8 +21,4 @@ void draw_plant(const Stratum& stratum, RandomSource& random, drivers::Scenario&
 /// Distance of neighbouring tubes, mm.
 [[nodiscard]] double pitch_mm(const core::TubesheetSettings& sheet);
 
-/// Centre of an address, sheet frame.
-[[nodiscard]] std::array<double, 2> center_mm(const core::TubesheetSettings& sheet,
-                                              core::TubeAddress address);
-
 }  // namespace tubesight::board::campaign

@@ -47,6 +47,9 @@ void write_tubesheet(TomlWriter& toml, const core::TubesheetSettings& sheet) {
   toml.numbers("rows", sheet.rows);
   toml.numbers("columns", sheet.columns);
   toml.text("addresses", kAddressWords[static_cast<std::size_t>(sheet.addresses)]);
+  if (sheet.odd_row_shift != 0.0) {
+    toml.number("odd_row_shift", sheet.odd_row_shift);
+  }
   toml.addresses("missing", sheet.missing.view());
   toml.addresses("plugged", sheet.plugged.view());
 }

@@ -1,10 +1,13 @@
 #include "board/bench/simulate/lattice_geometry.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "core/tubesheet/addresses.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/session_checks.h"
 
 namespace tubesight::board {
@@ -35,30 +38,21 @@ std::array<double, 2> lattice_place(const core::TubesheetSettings& sheet,
   return {(x * c[1] - y * c[0]) / area, (r[0] * y - r[1] * x) / area};
 }
 
-std::array<double, 2> tube_place(const core::TubesheetSettings& sheet, TubeAddress address) {
-  std::array<double, 2> place = sheet.origin_mm;
-  for (std::size_t i = 0; i < 2; ++i) {
-    place[i] += address.row * sheet.row_step_mm[i] + address.column * sheet.column_step_mm[i];
-  }
-  return place;
-}
-
 TubeAddress nearest_address(const core::TubesheetSettings& sheet,
                             const std::array<double, 2>& point_mm) {
   const auto at = lattice_place(sheet, point_mm);
   const auto row = static_cast<std::int32_t>(std::lround(at[0]));
-  const auto column = static_cast<std::int32_t>(std::lround(at[1]));
-  TubeAddress nearest{row, column};
+  TubeAddress nearest{row, static_cast<std::int32_t>(std::lround(at[1]))};
   double least = -1.0;
   // Oblique steps: the nearest is among the neighbours of the rounded place.
   for (std::int32_t r = row - 2; r <= row + 2; ++r) {
+    const double shift = core::tubesheet::in_odd_row({r, 0}) ? sheet.odd_row_shift : 0.0;
+    const auto column = static_cast<std::int32_t>(std::lround(at[1] - shift));
     for (std::int32_t c = column - 2; c <= column + 2; ++c) {
-      const bool odd = ((r + c) % 2) != 0;
-      if ((sheet.addresses == core::AddressParity::kEvenSum && odd) ||
-          (sheet.addresses == core::AddressParity::kOddSum && !odd)) {
+      if (!core::tubesheet::exists(sheet.addresses, {r, c})) {
         continue;
       }
-      const auto place = tube_place(sheet, {r, c});
+      const auto place = core::tubesheet::center_mm(sheet, {r, c});
       const double distance = std::hypot(place[0] - point_mm[0], place[1] - point_mm[1]);
       if (least < 0.0 || distance < least) {
         least = distance;
@@ -73,9 +67,10 @@ std::string why_off_the_sheet(const core::TubesheetSettings& sheet,
                               const std::array<double, 2>& point_mm) {
   const auto at = lattice_place(sheet, point_mm);
   constexpr double kHalfAStep = 0.5;
+  const double shift = sheet.odd_row_shift;
   const bool inside = at[0] >= sheet.rows[0] - kHalfAStep && at[0] <= sheet.rows[1] + kHalfAStep &&
-                      at[1] >= sheet.columns[0] - kHalfAStep &&
-                      at[1] <= sheet.columns[1] + kHalfAStep;
+                      at[1] >= sheet.columns[0] + std::min(shift, 0.0) - kHalfAStep &&
+                      at[1] <= sheet.columns[1] + std::max(shift, 0.0) + kHalfAStep;
   if (inside) {
     return {};
   }

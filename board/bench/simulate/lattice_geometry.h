@@ -8,13 +8,10 @@
 
 namespace tubesight::board {
 
-/// The lattice's coordinates of a point of the sheet: row and column, with fractions.
+/// The lattice's coordinates of a point of the sheet: row and column, with fractions; columns as
+/// rows of even number count them.
 [[nodiscard]] std::array<double, 2> lattice_place(const core::TubesheetSettings& sheet,
                                                   const std::array<double, 2>& point_mm);
-
-/// Centre of a tube by the lattice, sheet frame.
-[[nodiscard]] std::array<double, 2> tube_place(const core::TubesheetSettings& sheet,
-                                               core::TubeAddress address);
 
 /// The address of the lattice that exists by parity and is nearest to a point of the sheet.
 [[nodiscard]] core::TubeAddress nearest_address(const core::TubesheetSettings& sheet,

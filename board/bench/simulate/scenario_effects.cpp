@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "board/bench/simulate/lattice_geometry.h"
+#include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board {
 namespace {
@@ -105,7 +106,7 @@ class JumpCheck {
     }
     const core::TubesheetSettings& sheet = scenario_.told.tubesheet;
     const auto place = path_.state_at(time_s).place;
-    const auto jumped = tube_place(sheet, by);
+    const auto jumped = core::tubesheet::center_mm(sheet, by);
     return why_off_the_sheet(sheet, {place.x_mm + jumped[0] - sheet.origin_mm[0],
                                      place.y_mm + jumped[1] - sheet.origin_mm[1]});
   }

@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <string>
 
+#include "core/tubesheet/addresses.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/table_reader.h"
 
 namespace tubesight::board {
 namespace {
 
+using core::TubeAddress;
 using drivers::Fault;
 using drivers::FaultKind;
 using drivers::NumberRange;
@@ -64,8 +67,13 @@ void read_jump(TableReader& table, const FaultContext& context, Fault& fault) {
   }
   fault.rows = steps[0];
   fault.columns = steps[1];
-  const bool odd = ((steps[0] + steps[1]) % 2) != 0;
-  if (context.addresses != core::AddressParity::kAll && odd) {
+  const TubeAddress by{steps[0], steps[1]};
+  if (core::tubesheet::is_symmetry(*context.sheet, by)) {
+    return;
+  }
+  if (context.sheet->odd_row_shift != 0.0 && core::tubesheet::in_odd_row(by)) {
+    table.complain("steps", "an odd number of rows, expected an even one on this sheet");
+  } else {
     table.complain("steps", "an odd sum of rows and columns, expected an even one on this sheet");
   }
 }

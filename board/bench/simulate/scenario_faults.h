@@ -13,7 +13,7 @@ namespace tubesight::board {
 struct FaultContext {
   double length_s = 0.0;  ///< of the recording; 0: not known, nothing is checked against it
   bool interlaced = true;
-  core::AddressParity addresses = core::AddressParity::kAll;
+  const core::TubesheetSettings* sheet = nullptr;  ///< not null
 };
 
 /// Reads each `[[fault]]` into `faults`, replacing them, and where it stands into `places`. Says

@@ -233,7 +233,7 @@ void ScenarioReading::read_motion() {
     }
   }
   const FaultContext context{length_s, to_->told.camera.scan != core::Scan::kProgressive,
-                             to_->told.tubesheet.addresses};
+                             &to_->told.tubesheet};
   read_faults(*document_, context, to_->faults, fault_places_);
   read_events(*document_, to_->told, length_s, {&to_->events, &event_places_, &wishes_});
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "board/bench/simulate/lattice_geometry.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/table_reader.h"
@@ -88,7 +89,7 @@ void PathReader::read_start(TableReader& table) {
   } else {
     TubeAddress tube;
     placed = read_tube(table, "tube", tube);
-    place = placed ? tube_place(*sheet_, tube) : place;
+    place = placed ? core::tubesheet::center_mm(*sheet_, tube) : place;
     table.ignore("at_mm");
   }
   std::array<double, 2> offset{};
@@ -219,7 +220,7 @@ void PathReader::read_move(TableReader& table, PathSegment& segment) {
   const bool exact = table.has("offset_mm");
   table.optional_numbers("offset_mm", kOffset, offset);
   if (table.problems().size() == before) {
-    const auto place = tube_place(*sheet_, tube);
+    const auto place = core::tubesheet::center_mm(*sheet_, tube);
     const auto error = exact ? std::array<double, 2>{} : scattered();
     segment.to_mm = {place[0] + offset[0] + error[0], place[1] + offset[1] + error[1]};
   }
@@ -277,7 +278,7 @@ void PathReader::read_tour(TableReader& table) {
 
 void PathReader::visit(TableReader& table, TubeAddress tube, double rest_s, bool claims,
                        PathSegment move) {
-  const auto place = tube_place(*sheet_, tube);
+  const auto place = core::tubesheet::center_mm(*sheet_, tube);
   const auto error = scattered();
   move.to_mm = {place[0] + error[0], place[1] + error[1]};
   PathSegment rest;

@@ -40,6 +40,8 @@ std::string tubesheet_text(const core::TubesheetSettings& sheet) {
          line("weld", toml_text(kWelds[static_cast<std::size_t>(sheet.weld)])) +
          line("rows", whole_pair(sheet.rows)) + line("columns", whole_pair(sheet.columns)) +
          line("addresses", toml_text(kAddresses[static_cast<std::size_t>(sheet.addresses)])) +
+         (sheet.odd_row_shift != 0.0 ? line("odd_row_shift", toml_number(sheet.odd_row_shift))
+                                     : "") +
          line("missing", toml_addresses(sheet.missing.view())) +
          line("plugged", toml_addresses(sheet.plugged.view()));
 }

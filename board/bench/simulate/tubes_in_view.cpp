@@ -55,7 +55,8 @@ void list_tubes_in_view(const core::rendering::Truth& truth, const core::renderi
   const auto& c = sheet.column_step_mm;
   const double area = std::abs(r[0] * c[1] - r[1] * c[0]);
   const auto rows = static_cast<std::int32_t>(kFarthest_mm * std::hypot(c[0], c[1]) / area);
-  const auto columns = static_cast<std::int32_t>(kFarthest_mm * std::hypot(r[0], r[1]) / area);
+  const auto columns = static_cast<std::int32_t>(kFarthest_mm * std::hypot(r[0], r[1]) / area +
+                                                 std::abs(sheet.odd_row_shift));
   const core::TubeAddress middle = nearest_address(sheet, {tip.x(), tip.y()});
   const std::int32_t first_row = std::max(sheet.rows[0], middle.row - rows);
   const std::int32_t last_row = std::min(sheet.rows[1], middle.row + rows);

@@ -20,6 +20,7 @@ struct Sheet {
   Vector2<double> row_step;
   Vector2<double> column_step;
   AddressParity addresses = AddressParity::kAll;
+  double odd_row_shift = 0.0;
 };
 
 // Steps are multiples of 1/16 mm where it does not matter, so that every format holds them exactly.
@@ -36,6 +37,15 @@ const Sheet kSheets[] = {
     {"skewed", {25, 0}, {75, 25}},
     {"skewed the other way", {3, 21}, {-40, -160}},
     {"small, even sums, skewed", {2, 6}, {9, 1}, AddressParity::kEvenSum},
+    {"shifted by a quarter", {0, 25.5}, {25.5, 0}, AddressParity::kAll, 0.25},
+    {"shifted back by a quarter, left-handed", {0, -22}, {25.5, 0}, AddressParity::kAll, -0.25},
+    {"shifted by a half: triangular", {0, 22}, {25.375, 0}, AddressParity::kAll, 0.5},
+    {"shifted by a whole step", {0, 22}, {25.375, 0}, AddressParity::kAll, 1.0},
+    {"shifted, low rows", {0, 9}, {32, 0}, AddressParity::kAll, 0.375},
+    {"shifted, wide rows", {1, 40}, {9, 0}, AddressParity::kAll, -0.625},
+    {"shifted, skewed", {25, 3}, {75, 25}, AddressParity::kAll, 0.75},
+    {"shifted, even sums", {0, 22}, {13, 0}, AddressParity::kEvenSum, 0.25},
+    {"shifted, odd sums, turned", {-13, 18}, {12, 9}, AddressParity::kOddSum, -0.5},
 };
 
 template <typename S>
@@ -44,6 +54,7 @@ Lattice<S> lattice_of(const Sheet& sheet) {
   settings->row_step_mm = {sheet.row_step.x, sheet.row_step.y};
   settings->column_step_mm = {sheet.column_step.x, sheet.column_step.y};
   settings->addresses = sheet.addresses;
+  settings->odd_row_shift = sheet.odd_row_shift;
   const Result<Lattice<S>> lattice = make_lattice<S>(*settings);
   EXPECT_TRUE(lattice.has_value()) << sheet.name;
   return lattice.value_or(Lattice<S>());
@@ -67,8 +78,11 @@ std::vector<Tube> tubes_around(const Sheet& sheet, TubeAddress anchor) {
   for (std::int32_t i = -60; i <= 60; ++i) {
     for (std::int32_t j = -60; j <= 60; ++j) {
       const TubeAddress address{anchor.row + i, anchor.column + j};
-      const double x = i * sheet.row_step.x + j * sheet.column_step.x;
-      const double y = i * sheet.row_step.y + j * sheet.column_step.y;
+      const bool odd = address.row % 2 != 0;
+      const bool odd_anchor = anchor.row % 2 != 0;
+      const double columns = j + ((odd ? 1 : 0) - (odd_anchor ? 1 : 0)) * sheet.odd_row_shift;
+      const double x = i * sheet.row_step.x + columns * sheet.column_step.x;
+      const double y = i * sheet.row_step.y + columns * sheet.column_step.y;
       if (exists(sheet, address) && std::abs(x) < 120 && std::abs(y) < 120) {
         tubes.push_back({address, x, y});
       }
@@ -79,6 +93,12 @@ std::vector<Tube> tubes_around(const Sheet& sheet, TubeAddress anchor) {
 
 TubeAddress anchor_of(const Sheet& sheet) {
   return sheet.addresses == AddressParity::kOddSum ? TubeAddress{40, 61} : TubeAddress{40, -62};
+}
+
+// One in a row of even number, one in a row of odd number.
+std::vector<TubeAddress> anchors_of(const Sheet& sheet) {
+  const TubeAddress even = anchor_of(sheet);
+  return {even, {-41, even.column + 1}};
 }
 
 template <typename S>
@@ -105,6 +125,50 @@ TYPED_TEST(LatticeTest, PlacesAddressesByHand) {
   EXPECT_EQ(static_cast<double>(back.y), -30.0);
   const auto none = lattice.offset({-7, 8}, {-7, 8});
   EXPECT_EQ(static_cast<double>(none.x), 0.0);
+}
+
+TYPED_TEST(LatticeTest, PlacesShiftedRowsByHand) {
+  using S = TypeParam;
+  const Lattice<S> lattice = lattice_of<S>({"", {0, 24}, {20, 4}, AddressParity::kAll, -0.25});
+  const auto expect = [&](TubeAddress from, TubeAddress to, double x, double y) {
+    const auto offset = lattice.offset(from, to);
+    EXPECT_EQ(static_cast<double>(offset.x), x) << from.row << " " << to.row;
+    EXPECT_EQ(static_cast<double>(offset.y), y) << from.row << " " << to.row;
+  };
+  // The shift is (-5, -1); -7 is an odd number, too.
+  expect({40, 60}, {41, 60}, -5.0, 23.0);
+  expect({41, 60}, {40, 60}, 5.0, -23.0);
+  expect({41, 60}, {42, 60}, 5.0, 25.0);
+  expect({40, 60}, {42, 61}, 20.0, 52.0);
+  expect({41, 60}, {43, 61}, 20.0, 52.0);
+  expect({0, 0}, {-7, 1}, 15.0, -165.0);
+  expect({-7, 1}, {1, 0}, -20.0, 188.0);
+}
+
+TYPED_TEST(LatticeTest, HalfAStepOfShiftIsTheObliqueLattice) {
+  using S = TypeParam;
+  const Lattice<S> shifted = lattice_of<S>({"", {0, 22}, {25.5, 0}, AddressParity::kAll, 0.5});
+  const Lattice<S> oblique = lattice_of<S>({"", {12.75, 22}, {25.5, 0}});
+  // Two rows on, the oblique one has come a column further.
+  const auto same = [](TubeAddress address) {
+    return TubeAddress{address.row, address.column - (address.row - (address.row & 1)) / 2};
+  };
+  for (std::int32_t row = -5; row <= 5; ++row) {
+    for (std::int32_t column = -5; column <= 5; ++column) {
+      const TubeAddress address{row, column};
+      const TubeAddress anchor{3, -2};
+      const auto offset = shifted.offset(anchor, address);
+      EXPECT_EQ(offset, oblique.offset(same(anchor), same(address)));
+      const Vector2<Mm<S>> point = offset + Vector2<Mm<S>>{Mm<S>(7), Mm<S>(-9)};
+      EXPECT_EQ(same(shifted.nearest(anchor, point)), oblique.nearest(same(anchor), point));
+    }
+  }
+  EXPECT_EQ(shifted.parameters().shortest_step, oblique.parameters().shortest_step);
+  for (const Vector2<Mm<S>> point : {Vector2<Mm<S>>{Mm<S>(3), Mm<S>(8)}, {Mm<S>(-11), Mm<S>(2)}}) {
+    const double expected = static_cast<double>(oblique.distance_to_cell_edge({0, 0}, point));
+    EXPECT_NEAR(static_cast<double>(shifted.distance_to_cell_edge({0, 0}, point)), expected, 1e-5);
+    EXPECT_NEAR(static_cast<double>(shifted.distance_to_cell_edge({1, 0}, point)), expected, 1e-5);
+  }
 }
 
 TYPED_TEST(LatticeTest, PlacesFarAddressesOfASkewedNumbering) {
@@ -141,6 +205,12 @@ TYPED_TEST(LatticeTest, FindsTheShortestStep) {
               {{"", {0, 20}, {12.5, 0}, AddressParity::kOddSum}, 23.584953},  // sqrt(20^2 + 12.5^2)
               {{"", {0, 30}, {10, 0}, AddressParity::kEvenSum}, 20.0},        // two columns on
               {kSheets[9], 25.0},
+              {{"", {0, 24}, {20, 0}, AddressParity::kAll, 0.35}, 20.0},  // within the row
+              {{"", {0, 15}, {20, 0}, AddressParity::kAll, 0.4}, 17.0},   // (8, 15)
+              {{"", {0, 15}, {20, 0}, AddressParity::kAll, -0.6}, 17.0},  // (-12 + 20, 15)
+              {{"", {4, 15}, {20, 0}, AddressParity::kAll, 0.2}, 15.0},  // an odd row's (4 - 4, 15)
+              {{"", {0, 6}, {40, 0}, AddressParity::kAll, 0.5}, 12.0},   // two rows on
+              {{"", {0, 12}, {12, 0}, AddressParity::kEvenSum, 0.25}, 15.0},  // (-12 + 3, 12)
               {kSheets[10], 17.888544}};  // (-40, -160) + 8 (3, 21) = (-16, 8); (3, 21) is 21.2
   for (const auto& row : rows) {
     EXPECT_NEAR(static_cast<double>(lattice_of<S>(row.sheet).parameters().shortest_step),
@@ -155,10 +225,13 @@ TYPED_TEST(LatticeTest, NearestAgreesWithBruteForce) {
   std::mt19937 random(kSeed);
   for (const Sheet& sheet : kSheets) {
     const Lattice<S> lattice = lattice_of<S>(sheet);
-    const TubeAddress anchor = anchor_of(sheet);
-    const std::vector<Tube> tubes = tubes_around(sheet, anchor);
+    const std::vector<TubeAddress> anchors = anchors_of(sheet);
+    const std::vector<Tube> around[] = {tubes_around(sheet, anchors[0]),
+                                        tubes_around(sheet, anchors[1])};
     int judged = 0;
     for (int round = 0; round < 1500; ++round) {
+      const TubeAddress anchor = anchors[static_cast<std::size_t>(round % 2)];
+      const std::vector<Tube>& tubes = around[round % 2];
       const double x = static_cast<double>(random() % 1920U) / 16.0 - 60.0;
       const double y = static_cast<double>(random() % 1920U) / 16.0 - 60.0;
       double best = 1e9;
@@ -189,10 +262,11 @@ TYPED_TEST(LatticeTest, NearestOfACentreIsItsAddressWhereverOnTheSheet) {
   using S = TypeParam;
   for (const Sheet& sheet : kSheets) {
     const Lattice<S> lattice = lattice_of<S>(sheet);
-    const TubeAddress anchor = anchor_of(sheet);
-    for (const TubeAddress step : {TubeAddress{8, 6}, TubeAddress{-7, 5}, TubeAddress{5, -7}}) {
-      const TubeAddress address{anchor.row + step.row, anchor.column + step.column};
-      EXPECT_EQ(lattice.nearest(anchor, lattice.offset(anchor, address)), address) << sheet.name;
+    for (const TubeAddress anchor : anchors_of(sheet)) {
+      for (const TubeAddress step : {TubeAddress{8, 6}, TubeAddress{-7, 5}, TubeAddress{5, -7}}) {
+        const TubeAddress address{anchor.row + step.row, anchor.column + step.column};
+        EXPECT_EQ(lattice.nearest(anchor, lattice.offset(anchor, address)), address) << sheet.name;
+      }
     }
   }
   const Lattice<S> square = lattice_of<S>(kSheets[0]);
@@ -218,14 +292,18 @@ TYPED_TEST(LatticeTest, DistanceToTheCellEdgeAgreesWithBruteForce) {
   std::mt19937 random(kSeed);
   for (const Sheet& sheet : kSheets) {
     const Lattice<S> lattice = lattice_of<S>(sheet);
-    const std::vector<Tube> tubes = tubes_around(sheet, anchor_of(sheet));
+    const std::vector<TubeAddress> anchors = anchors_of(sheet);
+    const std::vector<Tube> around[] = {tubes_around(sheet, anchors[0]),
+                                        tubes_around(sheet, anchors[1])};
     int inside = 0;
     for (int round = 0; round < 1000; ++round) {
+      const TubeAddress tube = anchors[static_cast<std::size_t>(round % 2)];
+      const std::vector<Tube>& tubes = around[round % 2];
       const double x = static_cast<double>(random() % 512U) / 16.0 - 16.0;
       const double y = static_cast<double>(random() % 512U) / 16.0 - 16.0;
       const double expected = cell_edge_by_brute_force(tubes, x, y);
       const double actual =
-          static_cast<double>(lattice.distance_to_cell_edge({Mm<S>(x), Mm<S>(y)}));
+          static_cast<double>(lattice.distance_to_cell_edge(tube, {Mm<S>(x), Mm<S>(y)}));
       if (expected >= 0.0) {
         ++inside;
         ASSERT_NEAR(actual, expected, 1e-5)
@@ -241,9 +319,28 @@ TYPED_TEST(LatticeTest, DistanceToTheCellEdgeAgreesWithBruteForce) {
 TYPED_TEST(LatticeTest, DistanceToTheCellEdgeByHand) {
   using S = TypeParam;
   const Lattice<S> lattice = lattice_of<S>({"", {0, 24}, {24, 0}});
-  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({Mm<S>(0), Mm<S>(0)})), 12, 1e-5);
-  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({Mm<S>(5), Mm<S>(-9)})), 3, 1e-5);
-  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({Mm<S>(-13), Mm<S>(0)})), -1, 1e-5);
+  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({0, 0}, {Mm<S>(0), Mm<S>(0)})), 12,
+              1e-5);
+  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({0, 0}, {Mm<S>(5), Mm<S>(-9)})), 3,
+              1e-5);
+  EXPECT_NEAR(static_cast<double>(lattice.distance_to_cell_edge({0, 0}, {Mm<S>(-13), Mm<S>(0)})),
+              -1, 1e-5);
+}
+
+TYPED_TEST(LatticeTest, CellsOfShiftedRowsAreLopsided) {
+  using S = TypeParam;
+  const Lattice<S> lattice = lattice_of<S>({"", {0, 24}, {24, 0}, AddressParity::kAll, 0.25});
+  const auto to_edge = [&](TubeAddress tube, double x, double y) {
+    return static_cast<double>(lattice.distance_to_cell_edge(tube, {Mm<S>(x), Mm<S>(y)}));
+  };
+  // Row 1 stands 6 mm further: (6, 24) and (-18, 24) bound row 0's tubes above and below alike.
+  const double length = std::hypot(6.0, 24.0);
+  EXPECT_NEAR(to_edge({0, 0}, 6.0, 10.0), length / 2.0 - (36.0 + 240.0) / length, 1e-5);
+  EXPECT_NEAR(to_edge({0, 0}, -6.0, 10.0), 15.0 - (6.0 * 18.0 + 240.0) / 30.0, 1e-5);
+  EXPECT_NEAR(to_edge({0, 0}, 6.0, -10.0), length / 2.0 - (36.0 + 240.0) / length, 1e-5);
+  // And row 0 stands 6 mm behind row 1.
+  EXPECT_NEAR(to_edge({1, 0}, -6.0, 10.0), length / 2.0 - (36.0 + 240.0) / length, 1e-5);
+  EXPECT_NEAR(to_edge({-3, 0}, 6.0, 10.0), 15.0 - (6.0 * 18.0 + 240.0) / 30.0, 1e-5);
 }
 
 template <typename S>
@@ -281,6 +378,7 @@ TYPED_TEST(LatticeTest, TakesStepsAtTheLimits) {
   const Sheet sheets[] = {{"2 mm", {0, 2}, {2, 0}},
                           {"500 mm", {0, 500}, {500, 0}},
                           {"5.3 degrees", {25, 0}, {-250, 23}},
+                          {"500 mm, shifted", {0, 500}, {500, 0}, AddressParity::kAll, 0.3},
                           {"diagonal 2.12 mm", {0, 1.5}, {1.5, 0}, AddressParity::kEvenSum}};
   for (const Sheet& sheet : sheets) {
     const Lattice<S> lattice = lattice_of<S>(sheet);

@@ -26,28 +26,6 @@ class SessionChecks : public testing::Test {
   core::StartSettings start_;
 };
 
-TEST_F(SessionChecks, ShortestStepOfASquareLattice) {
-  EXPECT_DOUBLE_EQ(shortest_step_mm(sheet_), 25.4);
-}
-
-TEST_F(SessionChecks, ShortestStepWhenEveryOtherAddressIsAbsent) {
-  // Triangular pitch 22 mm as a rectangle: rows of half the pitch's height.
-  sheet_.row_step_mm = {0.0, 19.05};
-  sheet_.column_step_mm = {11.0, 0.0};
-  sheet_.addresses = core::AddressParity::kOddSum;
-
-  // Diagonal: sqrt(11^2 + 19.05^2) = 21.998; along the row 22.
-  EXPECT_NEAR(shortest_step_mm(sheet_), 21.998, 0.001);
-}
-
-TEST_F(SessionChecks, ShortestStepOfALongObliquePair) {
-  // (100, 1) and (101, 1) differ by (1, 0): far shorter than both.
-  sheet_.row_step_mm = {100.0, 30.0};
-  sheet_.column_step_mm = {110.0, 30.0};
-
-  EXPECT_NEAR(shortest_step_mm(sheet_), 10.0, 1e-9);
-}
-
 TEST_F(SessionChecks, LatticeNeedsTwoDirections) {
   EXPECT_EQ(why_no_lattice(sheet_), "");
   sheet_.column_step_mm = {0.5, 25.4};
@@ -66,12 +44,57 @@ TEST_F(SessionChecks, TubesMayNotOverlap) {
             "25.4, expected less than the 25.4 mm between neighbouring tubes");
 }
 
+TEST_F(SessionChecks, TubesOfShiftedRowsMayNotOverlap) {
+  // Rows 12 mm apart: half a step off, neighbours are sqrt(12.7^2 + 12^2) = 17.47 mm apart; a
+  // quarter off, sqrt(6.35^2 + 12^2) = 13.58 mm.
+  sheet_.row_step_mm = {0.0, 12.0};
+  sheet_.bore_mm = 15.0;
+  EXPECT_NE(why_bore_too_wide(sheet_), "");
+  sheet_.odd_row_shift = 0.5;
+  EXPECT_EQ(why_bore_too_wide(sheet_), "");
+  sheet_.odd_row_shift = -0.25;
+  EXPECT_EQ(why_bore_too_wide(sheet_),
+            "15, expected less than the 13.58 mm between neighbouring tubes");
+}
+
+TEST_F(SessionChecks, ShiftsWrittenAsMissingAddressesAreToldABetterWay) {
+  sheet_.column_step_mm = {6.35, 0.0};
+  ASSERT_TRUE(sheet_.missing.try_push_back({0, 1}));
+  EXPECT_EQ(why_bore_too_wide(sheet_),
+            "18.6, expected less than the 6.35 mm between neighbouring tubes, missing ones "
+            "included (a sheet of shifted rows has an odd_row_shift)");
+}
+
 TEST_F(SessionChecks, SheetMayNotReachTooFar) {
   EXPECT_EQ(why_sheet_too_large(sheet_), "");
   sheet_.rows = {-2000, 120};
   EXPECT_EQ(why_sheet_too_large(sheet_),
             "tube (-2000, 0) would stand at (0, -5.08e+04) mm, expected within 30000 mm of the "
             "origin");
+}
+
+TEST_F(SessionChecks, SheetMayNotReachTooFarByItsShiftedRows) {
+  // Column 1181 stands at 29997.4 mm, in odd rows 6.35 mm further: rows 0 and 2 are within.
+  sheet_.columns = {0, 1181};
+  sheet_.rows = {0, 2};
+  EXPECT_EQ(why_sheet_too_large(sheet_), "");
+  sheet_.odd_row_shift = 0.25;
+  EXPECT_NE(why_sheet_too_large(sheet_), "");
+  sheet_.rows = {0, 0};
+  EXPECT_EQ(why_sheet_too_large(sheet_), "");
+}
+
+TEST_F(SessionChecks, ClicksAreJudgedByWhereShiftedTubesStand) {
+  // Tubes of one column: with the shift they make a flat triangle, without it a line.
+  click(40, 60, 300, 200);
+  click(41, 60, 325, 300);
+  click(42, 60, 300, 400);
+  EXPECT_EQ(why_clicks_contradict(start_, &sheet_),
+            "the tubes lie in one line on the sheet, expected a triangle");
+  sheet_.odd_row_shift = 0.25;
+  EXPECT_EQ(why_clicks_contradict(start_, &sheet_), "");
+  sheet_.odd_row_shift = -0.25;
+  EXPECT_NE(why_clicks_contradict(start_, &sheet_), "");
 }
 
 TEST_F(SessionChecks, DistortionMayNotFoldThePicture) {

@@ -101,6 +101,17 @@ TEST_F(SessionSettings, HasTheDefaultsOfTheConventions) {
   EXPECT_EQ(settings_.verification.claim_within_s, 0.05);
   EXPECT_EQ(settings_.verification.claim_oldest_s, 0.25);
   EXPECT_EQ(settings_.tubesheet.origin_mm[0], 0.0);
+  EXPECT_EQ(settings_.tubesheet.odd_row_shift, 0.0);
+}
+
+TEST_F(SessionSettings, ReadsTheShiftOfOddRows) {
+  ASSERT_EQ(load_with("rows = [0, 120]", "odd_row_shift = -0.25\nrows = [0, 120]"), Messages{});
+  EXPECT_EQ(settings_.tubesheet.odd_row_shift, -0.25);
+  EXPECT_EQ(load_with("rows = [0, 120]", "odd_row_shift = 1.25\nrows = [0, 120]"),
+            Messages{"s.toml:20: tubesheet.odd_row_shift: 1.25, expected a number from -1 to 1 of "
+                     "a column step"});
+  ASSERT_EQ(load(kWhole), Messages{});
+  EXPECT_EQ(settings_.tubesheet.odd_row_shift, 0.0);
 }
 
 TEST_F(SessionSettings, ForgetsWhatItReadBefore) {

@@ -69,5 +69,22 @@ TEST(ScenarioText, ComesBackThroughTheReaderOfScenarioFiles) {
   }
 }
 
+// No move is drawn with shifted rows; the writer knows them all the same.
+TEST(ScenarioText, KeepsTheShiftOfOddRows) {
+  MoveMaker maker;
+  const auto drawn = std::make_unique<drivers::Scenario>();
+  maker.make(3, 0, *drawn);
+  drawn->told.tubesheet.odd_row_shift = -0.015625;
+  OneFile files(scenario_text(*drawn, "a move"));
+  const auto read = std::make_unique<ScenarioFile>();
+  drivers::Messages messages;
+
+  ASSERT_TRUE(load_scenario(files, "move.toml", {}, *read, messages).has_value())
+      << (messages.empty() ? "" : messages.front());
+
+  EXPECT_EQ(read->scenario.told.tubesheet.odd_row_shift, -0.015625);
+  EXPECT_EQ(read->scenario.scene.sheet.odd_row_shift, -0.015625);
+}
+
 }  // namespace
 }  // namespace tubesight::board::campaign

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/tubesheet/tubesheet_setup.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -15,11 +17,11 @@ core::TubesheetSettings oblique() {
   return sheet;
 }
 
-TEST(LatticePlace, IsTheInverseOfTubePlace) {
+TEST(LatticePlace, IsTheInverseOfTheCentre) {
   const auto sheet = oblique();
 
   // Row 3, column 4: (5 + 30 + 88, -7 + 60).
-  EXPECT_EQ(tube_place(sheet, {3, 4}), (std::array<double, 2>{123.0, 53.0}));
+  EXPECT_EQ(core::tubesheet::center_mm(sheet, {3, 4}), (std::array<double, 2>{123.0, 53.0}));
   const auto at = lattice_place(sheet, {123.0, 53.0});
   EXPECT_NEAR(at[0], 3.0, 1e-12);
   EXPECT_NEAR(at[1], 4.0, 1e-12);
@@ -36,6 +38,32 @@ TEST(NearestAddress, LooksBeyondTheRoundedPlaceAndSkipsAbsentAddresses) {
       (nearest_address(sheet, {125.0, 53.0}).row + nearest_address(sheet, {125.0, 53.0}).column) %
           2,
       0);
+}
+
+TEST(NearestAddress, KnowsShiftedRows) {
+  auto sheet = oblique();
+  sheet.row_step_mm = {0.0, 20.0};
+  sheet.odd_row_shift = 0.75;
+
+  // Row 3, column 4 stands at (5 + 88 + 16.5, -7 + 60), row 4 not shifted at (93, 73).
+  EXPECT_EQ(core::tubesheet::center_mm(sheet, {3, 4}), (std::array<double, 2>{109.5, 53.0}));
+  EXPECT_EQ(core::tubesheet::center_mm(sheet, {4, 4}), (std::array<double, 2>{93.0, 73.0}));
+  EXPECT_EQ(nearest_address(sheet, {99.0, 52.0}), (core::TubeAddress{3, 4}));
+  EXPECT_EQ(nearest_address(sheet, {98.0, 52.0}), (core::TubeAddress{3, 3}));
+  EXPECT_EQ(nearest_address(sheet, {98.0, 72.0}), (core::TubeAddress{4, 4}));
+}
+
+TEST(WhyOffTheSheet, CountsShiftedRowsIn) {
+  auto sheet = oblique();
+  sheet.row_step_mm = {0.0, 20.0};
+  sheet.odd_row_shift = -0.5;
+
+  // Row 3, column 0 stands at (-6, 53), with half a step more to its left; row 3 ends at column
+  // 100, (2194, 53), though even rows reach to 2205.
+  EXPECT_EQ(why_off_the_sheet(sheet, {-16.9, 53.0}), "");
+  EXPECT_NE(why_off_the_sheet(sheet, {-17.1, 53.0}), "");
+  EXPECT_EQ(why_off_the_sheet(sheet, {2215.9, 53.0}), "");
+  EXPECT_NE(why_off_the_sheet(sheet, {2216.1, 53.0}), "");
 }
 
 }  // namespace

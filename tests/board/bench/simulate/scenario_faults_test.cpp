@@ -100,5 +100,24 @@ TEST(ScenarioFaults, AJumpOnASheetOfEverySecondAddressIsAnEvenOne) {
             "this sheet\n");
 }
 
+TEST(ScenarioFaults, AJumpOnASheetOfShiftedRowsIsByAnEvenNumberOfThem) {
+  const std::string sheet =
+      "[tubesheet]\nrow_step_mm = [0.0, 25.4]\ncolumn_step_mm = [25.4, 0.0]\n"
+      "bore_mm = 18.6\nrows = [0, 120]\ncolumns = [0, 120]\nodd_row_shift = 0.25\n";
+  const auto told = [&](const std::string& steps) {
+    return ScenarioReading(
+               "[path]\ntube = [31, 59]\n[[step]]\nrest_s = 1.0\n"
+               "[[fault]]\nkind = \"jump\"\nat_s = 0.5\nsteps = " +
+                   steps + "\n",
+               {}, sheet)
+        .told();
+  };
+
+  EXPECT_EQ(told("[2, -1]"), "");
+  EXPECT_EQ(told("[-1, 1]"),
+            "s.toml:9: fault[0].steps: an odd number of rows, expected an even one on this "
+            "sheet\n");
+}
+
 }  // namespace
 }  // namespace tubesight::board

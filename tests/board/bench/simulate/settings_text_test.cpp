@@ -35,7 +35,8 @@ std::unique_ptr<drivers::SessionFile> odd_session() {
       "rotation_deg = [-0.0639064, -0.8174368, 47.9947489]\n"
       "[tubesheet]\norigin_mm = [1.5, -2.25]\nrow_step_mm = [0.0, 19.24741459910915]\n"
       "column_step_mm = [11.1125, 0.0]\nbore_mm = 14.2\nweld = \"fillet\"\nrows = [-3, 120]\n"
-      "columns = [-4, 121]\naddresses = \"odd-sum\"\nmissing = [[1, 2], [3, 4]]\n"
+      "columns = [-4, 121]\naddresses = \"odd-sum\"\nodd_row_shift = -0.375\nmissing = [[1, 2], "
+      "[3, 4]]\n"
       "plugged = [[5, 6]]\n"
       "[start]\ntubes = [ { row = 40, column = 61, at_px = [313.25, 196] },\n"
       "{ row = 41, column = 60, at_px = [288, 230] }, { row = 40, column = 63, at_px = [360, 190] "
@@ -79,6 +80,7 @@ TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
   EXPECT_EQ(a.tubesheet.row_step_mm, b.tubesheet.row_step_mm);
   EXPECT_EQ(b.tubesheet.weld, core::Weld::kFillet);
   EXPECT_EQ(b.tubesheet.addresses, core::AddressParity::kOddSum);
+  EXPECT_EQ(b.tubesheet.odd_row_shift, -0.375);
   EXPECT_EQ(a.tubesheet.rows, b.tubesheet.rows);
   EXPECT_EQ(a.tubesheet.columns, b.tubesheet.columns);
   ASSERT_EQ(b.tubesheet.missing.size(), 2);
