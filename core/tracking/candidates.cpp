@@ -96,6 +96,16 @@ class NumberRange {
            inside(origin_.z, step_[0].z, step_[1].z);
   }
 
+  /// Leaves of row i what it holds; nothing: `first` is beyond `last`.
+  void cut(std::int32_t i, std::int32_t& first, std::int32_t& last) const {
+    while (first <= last && !holds(i, first)) {
+      ++first;
+    }
+    while (first < last && !holds(i, last)) {
+      --last;
+    }
+  }
+
   [[nodiscard]] bool holds(const Block<S>& block) const {
     return holds(block.low[0], block.low[1]) && holds(block.low[0], block.high[1]) &&
            holds(block.high[0], block.low[1]) && holds(block.high[0], block.high[1]);
@@ -154,11 +164,8 @@ void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& m
   for (std::int32_t i = block.low[0]; i <= block.high[0]; ++i) {
     std::int32_t first = block.low[1];
     std::int32_t last = block.high[1];
-    while (!whole && first <= last && !range.holds(i, first)) {
-      ++first;
-    }
-    while (!whole && first < last && !range.holds(i, last)) {
-      --last;
+    if (!whole) {
+      range.cut(i, first, last);
     }
     if (first > last) {
       continue;

@@ -75,19 +75,6 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
   seen_sequence_ = field.sequence;
 }
 
-// Whether fields are missing before this one: numbers are, or time is where the numbers tell
-// nothing. The shortest time between two fields is the usual one; stamps that waver by less than
-// half of it are no gap.
-template <Scalar S>
-bool Tracker<S>::misses_fields(const Field& field) {
-  const std::int64_t numbers = field.sequence - seen_sequence_;
-  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
-  const bool missing = numbers > std::max<std::int64_t>(usual_numbers_, 1) ||
-                       (usual_span_ns_ > 0 && passed / 3 > usual_span_ns_ / 2);
-  usual_span_ns_ = usual_span_ns_ == 0 ? passed : std::min(usual_span_ns_, passed);
-  return missing;
-}
-
 // Why the tool can be too far from where it is expected, though no picture was unusable. With no
 // field missing either, the limits of [motion] allow too much between two fields even on a perfect
 // picture, or this picture is too poor.
@@ -99,25 +86,6 @@ Reason Tracker<S>::why_too_far(bool missing, Mm<S> reach_mm) const {
   constexpr std::int32_t kDeviations = 3;
   const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_mm<Mm<S>>());
   return reach_mm + least > address_limit_mm<S>(*model_) ? Reason::kRate : Reason::kUncertain;
-}
-
-// The time since the last good field, by its stamps or by the lost sequence numbers, whichever is
-// longer: the shortest time seen for a number is what each lost one took at least.
-template <Scalar S>
-FieldTime Tracker<S>::span_since_good(const Field& field) {
-  constexpr std::int64_t kMany = 1'000'000;
-  const std::int64_t lost = std::clamp<std::int64_t>(field.sequence - last_sequence_, 0, kMany);
-  const FieldTime told(lost * std::min<std::int64_t>(per_sequence_ns_, 1'000'000'000));
-  // Learnt from neighbours alone: a field without a gap before it, whatever its numbers grow by.
-  const std::int64_t numbers = field.sequence - seen_sequence_;
-  const std::int64_t passed = (field.mid_exposure - seen_time_).count();
-  if (numbers > 0 && (usual_numbers_ == 0 || numbers <= usual_numbers_)) {
-    const std::int64_t each = passed / numbers;
-    const bool first = numbers != usual_numbers_;
-    per_sequence_ns_ = first ? each : std::min(per_sequence_ns_, each);
-    usual_numbers_ = numbers;
-  }
-  return std::max(field.mid_exposure - last_time_, told);
 }
 
 template <Scalar S>
@@ -209,9 +177,6 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   const bool missing = misses_fields(field);
-  if (missing) {
-    order_.miss();
-  }
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
@@ -255,9 +220,6 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   accept(outcome, field, span_s);
-  if (order_.wrong()) {
-    lose(Reason::kFieldOrder);
-  }
 }
 
 // What the last velocity's own uncertainty adds to the prediction: the difference of two places
@@ -329,6 +291,9 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   shown_ = pose_;
   tool_shown_ = tool_;
   strayed_mm_ = {};
+  if (order_.wrong() && model_->margin_check) {
+    lose(Reason::kFieldOrder);
+  }
 }
 
 // One field torn, repeated or of noise is passed over; three in a row are a jump. What comes behind
