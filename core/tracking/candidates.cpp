@@ -65,6 +65,58 @@ Block<S> block_in_window(const TrackingModel<S>& model, const SheetPose<S>& pose
   return block;
 }
 
+// Which addresses lie within the numbers' range, seen from anchor and camera: a sheet that tilts
+// away reaches out of it long before a block ends.
+template <Scalar S>
+class NumberRange {
+ public:
+  NumberRange(const TrackingModel<S>& model, const SheetPose<S>& pose) : origin_(pose.origin) {
+    const auto& basis = model.lattice.parameters().basis;
+    for (std::size_t k = 0; k < 2; ++k) {
+      local_[k] = model.lattice.offset(
+          pose.anchor, {pose.anchor.row + basis[k].row, pose.anchor.column + basis[k].column});
+      step_[k] = pose.along(local_[k]);
+    }
+  }
+
+  /// Whether it holds i rows and j columns from the anchor. A region without dents: what lies
+  /// between is in it, too.
+  [[nodiscard]] bool holds(std::int32_t i, std::int32_t j) const {
+    using M = Mm<S>;
+    const M rows = from_scaled<M>(i, 0);
+    const M columns = from_scaled<M>(j, 0);
+    // As products: 31 steps of a metre each way fit.
+    const auto most = product(from_scaled<M>(2000, 0), M(1));
+    const auto inside = [&](M start, M row, M column) {
+      const auto at = product(start, M(1)) + product(row, rows) + product(column, columns);
+      return at < most && -at < most;
+    };
+    return inside(M{}, local_[0].x, local_[1].x) && inside(M{}, local_[0].y, local_[1].y) &&
+           inside(origin_.x, step_[0].x, step_[1].x) && inside(origin_.y, step_[0].y, step_[1].y) &&
+           inside(origin_.z, step_[0].z, step_[1].z);
+  }
+
+  /// Leaves of row i what it holds; nothing: `first` is beyond `last`.
+  void cut(std::int32_t i, std::int32_t& first, std::int32_t& last) const {
+    while (first <= last && !holds(i, first)) {
+      ++first;
+    }
+    while (first < last && !holds(i, last)) {
+      --last;
+    }
+  }
+
+  [[nodiscard]] bool holds(const Block<S>& block) const {
+    return holds(block.low[0], block.low[1]) && holds(block.low[0], block.high[1]) &&
+           holds(block.high[0], block.low[1]) && holds(block.high[0], block.high[1]);
+  }
+
+ private:
+  Vector3<Mm<S>> origin_{};
+  std::array<Vector2<Mm<S>>, 2> local_{};
+  std::array<Vector3<Mm<S>>, 2> step_{};
+};
+
 template <Scalar S>
 bool in_box(const Block<S>& block, const Vector2<Ratio<S>>& point) {
   return point.x >= block.least.x && point.x <= block.most.x && point.y >= block.least.y &&
@@ -104,10 +156,23 @@ void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
   const auto place = [&](std::int32_t i, std::int32_t j) {
     return pose.origin + pose.along(model.lattice.offset(pose.anchor, address_at(i, j)));
   };
+  const NumberRange<S> range(model, pose);
+  const bool whole = range.holds(block);
   const Vector3<Mm<S>> step = place(0, 1) - place(0, 0);
   for (std::int32_t i = block.low[0]; i <= block.high[0]; ++i) {
-    Vector3<Mm<S>> center = place(i, block.low[1]);
-    for (std::int32_t j = block.low[1]; j <= block.high[1]; ++j, center = center + step) {
+    std::int32_t first = block.low[1];
+    std::int32_t last = block.high[1];
+    if (!whole) {
+      range.cut(i, first, last);
+    }
+    if (first > last) {
+      continue;
+    }
+    Vector3<Mm<S>> center = place(i, first);
+    for (std::int32_t j = first; j <= last; ++j) {
+      if (j > first) {
+        center = center + step;
+      }
       const auto plane = to_plane<S>(center);
       if (!plane || !in_box<S>(block, *plane)) {
         continue;

@@ -65,7 +65,9 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   const M three = deviation_mm + deviation_mm + deviation_mm;
   const M slack = std::max(times(step, from_scaled<M>(1, 4)), three + three);
   const M unique = step - farthest - slack;
-  const M widest = std::min(times(step, from_scaled<M>(3, 3)), address_limit_mm<S>(model) - three);
+  // A micrometre under the limit: floating point rounds the sum that is compared with it.
+  const M allowed = address_limit_mm<S>(model) - three - from_scaled<M>(1, 10);
+  const M widest = std::min(times(step, from_scaled<M>(3, 3)), allowed);
   return std::min(farthest, std::max(std::min(widest, unique), grown));
 }
 

@@ -16,8 +16,9 @@ template <Scalar S>
   if (point.z < from_scaled<Mm<S>>(8, 0)) {
     return std::nullopt;
   }
-  // Twice the depth would leave the format from 1024 mm on.
-  if (absolute(point.x) - point.z > point.z || absolute(point.y) - point.z > point.z) {
+  // Twice the depth leaves the format from 1024 mm on.
+  const auto reach = widen<20>(point.z) + widen<20>(point.z);
+  if (widen<20>(absolute(point.x)) > reach || widen<20>(absolute(point.y)) > reach) {
     return std::nullopt;
   }
   return Vector2<Ratio<S>>{quotient<Ratio<S>>(point.x, point.z),

@@ -184,10 +184,7 @@ void Tracker<S>::follow(const Field& field) {
     follow_unchecked(field);
     return;
   }
-  const bool missing = no_field || misses_fields(field);
-  if (missing) {
-    order_.miss();
-  }
+  const bool missing = misses_fields(field);
   const FieldTime span = span_since_good(field);
   if (span >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
@@ -231,9 +228,6 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   accept(outcome, field, span_s);
-  if (order_.wrong()) {
-    lose(Reason::kFieldOrder);
-  }
 }
 
 template <Scalar S>
@@ -290,6 +284,9 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   shown_ = pose_;
   tool_shown_ = tool_;
   strayed_mm_ = {};
+  if (order_.wrong() && model_->margin_check) {
+    lose(Reason::kFieldOrder);
+  }
 }
 
 // One field torn, repeated or of noise is passed over; three in a row are a jump. What comes behind

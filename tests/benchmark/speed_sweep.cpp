@@ -174,8 +174,9 @@ void make(const Case& what, std::int64_t number, Mounting mounting, Scenario& sc
   }
 }
 
-constexpr std::array<Count, 5> kLosses = {Count::kLostNoTubes, Count::kLostCoasted,
-                                          Count::kLostJump, Count::kLostSpeed, Count::kLostGap};
+constexpr std::array<Count, 7> kLosses = {
+    Count::kLostNoTubes, Count::kLostCoasted, Count::kLostJump,      Count::kLostSpeed,
+    Count::kLostGap,     Count::kLostRate,    Count::kLostFieldOrder};
 
 /// Whether a move was lost in the open: `lost` for a reason that docs/file-formats.md lists.
 bool openly_lost(const Counts& move) {

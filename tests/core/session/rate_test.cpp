@@ -1,4 +1,4 @@
-// Rates of fields at the edge of what [motion] and the pitch allow.
+// How far apart fields may be, and how poor the picture, for a tool at rest to be tracked.
 
 #include <tuple>
 

@@ -1,10 +1,12 @@
 #include "core/tracking/projection.h"
 
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/overflow.h"
+#include "core/tracking/candidates.h"
 #include "tests/core/tracking/tracking_test_support.h"
 
 namespace tubesight::core::tracking {
@@ -112,6 +114,41 @@ TYPED_TEST(Projection, HoldsForPointsBeyondAMetre) {
   EXPECT_FALSE(to_plane<TypeParam>({M(-2040.0), M(0.0), M(1000.0)}).has_value());
   EXPECT_TRUE(to_plane<TypeParam>({M(2040.0), M(-2040.0), M(2040.0)}).has_value());
   EXPECT_FALSE(take_overflow_flag());
+}
+
+TYPED_TEST(Projection, FindsNoSheetFarAsideAndRaisesNothing) {
+  // A sheet that tilts away by 55 degrees, 850 mm along the axis, and a view of a hundred degrees:
+  // what the numbers cannot hold is not there.
+  this->scene_.settings->camera.focal_length_mm = 2.4;
+  this->scene_.settings->camera.distortion_per_mm2 = 0.0;
+  this->scene_.make();
+  const double tilt = 55.0 * M_PI / 180.0;
+  using U = Unit<TypeParam>;
+  using M = Mm<TypeParam>;
+  for (const double sense : {-1.0, 1.0}) {
+    SheetPose<TypeParam> pose;
+    pose.x_axis = {U(1), U(0), U(0)};
+    pose.y_axis = {U(0), U(std::cos(tilt)), U(sense * std::sin(tilt))};
+    pose.normal = {U(0), U(-sense * std::sin(tilt)), U(std::cos(tilt))};
+    pose.origin = {M(0), M(0), M(850)};
+    static_cast<void>(take_overflow_flag());
+    int found = 0;
+    for (int u = 0; u <= 630; u += 30) {
+      for (int v = 0; v <= 475; v += 25) {
+        found += to_sheet<TypeParam>(this->scene_.model, pose, {Px<TypeParam>(u), Px<TypeParam>(v)})
+                         .has_value()
+                     ? 1
+                     : 0;
+      }
+    }
+    EXPECT_GT(found, 100);
+    EXPECT_LT(found, 22 * 20);
+    EXPECT_FALSE(take_overflow_flag());
+    CandidateList<TypeParam> list;
+    list_candidates<TypeParam>(this->scene_.model, *this->scene_.map, pose, list);
+    EXPECT_GT(list.size(), 10);
+    EXPECT_FALSE(take_overflow_flag());
+  }
 }
 
 TYPED_TEST(Projection, FindsNoSheetWhereARayRunsAlongItOrAway) {

@@ -3,7 +3,7 @@
 #include "core/base/instantiate.h"
 #include "core/tracking/tracker.h"
 
-// How a tracker reads the counters and stamps of fields, and what a span of time leaves uncertain.
+// What a tracker makes of the times and numbers of fields.
 namespace tubesight::core::tracking {
 
 // Whether fields are missing before this one: numbers are, or time is where the numbers tell
@@ -11,11 +11,18 @@ namespace tubesight::core::tracking {
 // half of it are no gap.
 template <Scalar S>
 bool Tracker<S>::misses_fields(const Field& field) {
+  if (field.status == FieldStatus::kMissing) {
+    order_.miss();
+    return true;
+  }
   const std::int64_t numbers = field.sequence - seen_sequence_;
   const std::int64_t passed = (field.mid_exposure - seen_time_).count();
   const bool missing = numbers > std::max<std::int64_t>(usual_numbers_, 1) ||
                        (usual_span_ns_ > 0 && passed / 3 > usual_span_ns_ / 2);
   usual_span_ns_ = usual_span_ns_ == 0 ? passed : std::min(usual_span_ns_, passed);
+  if (missing) {
+    order_.miss();
+  }
   return missing;
 }
 
