@@ -110,6 +110,7 @@ SyntheticSheet::SyntheticSheet(const core::SessionSettings& settings)
       column_step_mm_(settings.tubesheet.column_step_mm),
       bore_mm_(settings.tubesheet.bore_mm),
       addresses_(settings.tubesheet.addresses),
+      odd_row_shift_(settings.tubesheet.odd_row_shift),
       missing_(settings.tubesheet.missing.begin(), settings.tubesheet.missing.end()),
       plugged_(settings.tubesheet.plugged.begin(), settings.tubesheet.plugged.end()) {
   look.fillet = settings.tubesheet.weld == core::Weld::kFillet;
@@ -178,8 +179,9 @@ std::array<double, 2> SyntheticSheet::axis_point(const ToolPlace& place) const {
 }
 
 std::array<double, 2> SyntheticSheet::center_of(TubeAddress address) const {
-  return {origin_mm_[0] + address.row * row_step_mm_[0] + address.column * column_step_mm_[0],
-          origin_mm_[1] + address.row * row_step_mm_[1] + address.column * column_step_mm_[1]};
+  const double column = address.column + (address.row % 2 == 0 ? 0.0 : odd_row_shift_);
+  return {origin_mm_[0] + address.row * row_step_mm_[0] + column * column_step_mm_[0],
+          origin_mm_[1] + address.row * row_step_mm_[1] + column * column_step_mm_[1]};
 }
 
 TubeAddress SyntheticSheet::nearest(const std::array<double, 2>& point_mm) const {
@@ -193,7 +195,7 @@ TubeAddress SyntheticSheet::nearest(const std::array<double, 2>& point_mm) const
   TubeAddress best{row, column};
   double least = 1e30;
   for (std::int32_t i = -1; i <= 1; ++i) {
-    for (std::int32_t j = -1; j <= 1; ++j) {
+    for (std::int32_t j = -2; j <= 2; ++j) {
       const TubeAddress address{row + i, column + j};
       const bool even = ((address.row + address.column) & 1) == 0;
       if ((addresses_ == core::AddressParity::kEvenSum && !even) ||

@@ -107,6 +107,7 @@ class SyntheticSheet {
   std::array<double, 2> column_step_mm_{};
   double bore_mm_ = 0.0;
   core::AddressParity addresses_ = core::AddressParity::kAll;
+  double odd_row_shift_ = 0.0;
   std::vector<core::TubeAddress> missing_;
   std::vector<core::TubeAddress> plugged_;
 };

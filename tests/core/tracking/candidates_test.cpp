@@ -116,6 +116,26 @@ TYPED_TEST(Candidates, FollowObliqueAndLeftHandedLattices) {
   this->expect_all({250.0, -212.0, 60.0, -80.0, 0.0, 0.0});
 }
 
+TYPED_TEST(Candidates, FollowShiftedRowsFromAnchorsInBothKinds) {
+  auto& sheet = this->scene_.settings->tubesheet;
+  for (const double shift : {0.25, -0.4, 0.9}) {
+    sheet.odd_row_shift = shift;
+    this->scene_.make();
+    for (const double y_mm : {508.0, 533.4}) {
+      for (const double alpha : {2.0, -123.0}) {
+        this->expect_all({250.0, y_mm, 60.0, alpha, 0.6, -0.4});
+        this->expect_all({262.0, y_mm, 90.0, alpha, 0.0, 0.0});
+      }
+    }
+  }
+  sheet.column_step_mm = {12.7, 0.0};
+  sheet.addresses = AddressParity::kEvenSum;
+  sheet.odd_row_shift = 0.5;
+  this->scene_.make();
+  this->expect_all({250.0, 508.0, 60.0, 10.0, 0.0, 0.0});
+  this->expect_all({250.0, 533.4, 60.0, 10.0, 0.0, 0.0});
+}
+
 TYPED_TEST(Candidates, StandInTheOrderOfTheirDistanceFromTheOptimumPoint) {
   this->scene_.make();
   const SyntheticSheet sheet(*this->scene_.settings);
