@@ -70,7 +70,8 @@ Block<S> block_in_window(const TrackingModel<S>& model, const SheetPose<S>& pose
 template <Scalar S>
 class NumberRange {
  public:
-  NumberRange(const TrackingModel<S>& model, const SheetPose<S>& pose) : origin_(pose.origin) {
+  NumberRange(const TrackingModel<S>& model, const SheetPose<S>& pose, TubeAddress from)
+      : start_(model.lattice.offset(pose.anchor, from)), origin_(pose.origin + pose.along(start_)) {
     const auto& basis = model.lattice.parameters().basis;
     for (std::size_t k = 0; k < 2; ++k) {
       local_[k] = model.lattice.offset(
@@ -79,7 +80,7 @@ class NumberRange {
     }
   }
 
-  /// Whether it holds i rows and j columns from the anchor. A region without dents: what lies
+  /// Whether it holds i and j steps of the basis from `from`. A region without dents: what lies
   /// between is in it, too.
   [[nodiscard]] bool holds(std::int32_t i, std::int32_t j) const {
     using M = Mm<S>;
@@ -91,7 +92,8 @@ class NumberRange {
       const auto at = product(start, M(1)) + product(row, rows) + product(column, columns);
       return at < most && -at < most;
     };
-    return inside(M{}, local_[0].x, local_[1].x) && inside(M{}, local_[0].y, local_[1].y) &&
+    return inside(start_.x, local_[0].x, local_[1].x) &&
+           inside(start_.y, local_[0].y, local_[1].y) &&
            inside(origin_.x, step_[0].x, step_[1].x) && inside(origin_.y, step_[0].y, step_[1].y) &&
            inside(origin_.z, step_[0].z, step_[1].z);
   }
@@ -112,6 +114,7 @@ class NumberRange {
   }
 
  private:
+  Vector2<Mm<S>> start_{};
   Vector3<Mm<S>> origin_{};
   std::array<Vector2<Mm<S>>, 2> local_{};
   std::array<Vector3<Mm<S>>, 2> step_{};
@@ -156,21 +159,21 @@ void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
   const auto place = [&](std::int32_t i, std::int32_t j) {
     return pose.origin + pose.along(model.lattice.offset(pose.anchor, address_at(i, j)));
   };
-  const NumberRange<S> range(model, pose);
+  const NumberRange<S> range(model, pose, first);
   const bool whole = range.holds(block);
   const Vector3<Mm<S>> step = place(0, 1) - place(0, 0);
   for (std::int32_t i = block.low[0]; i <= block.high[0]; ++i) {
-    std::int32_t first = block.low[1];
-    std::int32_t last = block.high[1];
+    std::int32_t low = block.low[1];
+    std::int32_t high = block.high[1];
     if (!whole) {
-      range.cut(i, first, last);
+      range.cut(i, low, high);
     }
-    if (first > last) {
+    if (low > high) {
       continue;
     }
-    Vector3<Mm<S>> center = place(i, first);
-    for (std::int32_t j = first; j <= last; ++j) {
-      if (j > first) {
+    Vector3<Mm<S>> center = place(i, low);
+    for (std::int32_t j = low; j <= high; ++j) {
+      if (j > low) {
         center = center + step;
       }
       const auto plane = to_plane<S>(center);

@@ -18,8 +18,8 @@ struct ToolPlaceQ10 {
 /// At a speed of v a field the fields in the wrong order go -v, +3v, -v, ...; those of one instant
 /// 0, +2v, 0, ... So the zigzag (half of the step into a frame less the step within) is 2 or 1
 /// times the mean step, in its direction, whatever the motion; in the right order it is none of it.
-/// A vibration is not tied to the motion; one within half a hertz of half the fields' rate, from the
-/// moment that the tool moves first, was not tried and may look so: it costs the track alone.
+/// A vibration is not tied to the motion; one within half a hertz of half the fields' rate, from
+/// the moment that the tool moves first, was not tried and may look so: it costs the track alone.
 ///
 /// Slow motion is tracked all the same, and told by sixteen frames that moved. Fast motion
 /// contradicts itself and is lost within three fields: then those few must make a motion within the
