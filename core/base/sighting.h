@@ -85,6 +85,7 @@ struct Sighting {
 
   bool velocity_known = false;
   std::array<std::int32_t, 2> velocity_um_s{};  ///< of the axis over the sheet, sheet x and y
+  std::int32_t velocity_span_us = 0;            ///< between the fields that it is the mean of
 
   bool margin_known = false;
   std::int32_t margin_permyriad = 0;  ///< distance from the rounding limit in sigma, 1/10000

@@ -21,7 +21,7 @@ void Session<S>::step(const Input& input, Output& output) {
   output.order.tubes.clear();
   poses_.age();
   starts_.look(input.field, knows_place(state_));
-  take_starts(input.events);
+  take_starts(input.field, input.events);
   tracker_.step(input.field, output.sighting, output.tubes);
   remember(output.sighting);
   claims_.answer_waiting(recent_, output.replies);
@@ -33,7 +33,7 @@ void Session<S>::step(const Input& input, Output& output) {
 
 // The last of several starts before one field is the one that counts; each gets its own answer.
 template <Scalar S>
-void Session<S>::take_starts(const EventList& events) {
+void Session<S>::take_starts(const Field& field, const EventList& events) {
   start_refusals_.clear();
   const Start* last = nullptr;
   for (const Event& event : events) {
@@ -47,9 +47,12 @@ void Session<S>::take_starts(const EventList& events) {
   if (last == nullptr) {
     return;
   }
-  const StartRefusal refusal = starts_.judge(*last);
+  // Without a picture nothing can be taken, and a track that is well goes on.
+  const bool picture = field.status == FieldStatus::kGood;
+  const StartRefusal refusal = picture ? starts_.judge(*last) : StartRefusal::kPicture;
   static_cast<void>(start_refusals_.try_push_back(refusal));
   if (refusal == StartRefusal::kNone) {
+    recent_.clear();  // a track that needed a new start does not vouch for the time before it
     tracker_.request_start(tracking::make_start_clicks(last->tubes));
   }
 }

@@ -77,7 +77,7 @@ class Session {
   }
 
  private:
-  void take_starts(const EventList& events);
+  void take_starts(const Field& field, const EventList& events);
   void remember(Sighting& sighting);
   void answer(const Event& event, const Input& input, std::int32_t& start, Output& output);
 

@@ -85,6 +85,15 @@ void FieldOrder::weigh(const Seen& into, const Seen& within, const Seen& from) {
   zigzag_zigzag_ += square(zigzag);
   way_x_ += step.x;
   way_y_ += step.y;
+  // A verdict may stay open for hours: what is long ago counts less then, and the sums stay small.
+  constexpr std::int32_t kMostMoved = 1 << 16;
+  if (moved_ >= kMostMoved) {
+    moved_ /= 2;
+    for (std::int64_t* const sum :
+         {&step_step_, &zigzag_step_, &zigzag_zigzag_, &way_x_, &way_y_}) {
+      *sum /= 2;
+    }
+  }
   if (moved_ >= kEnoughForRight && 2 * std::abs(zigzag_step_) < step_step_ &&
       2 * zigzag_zigzag_ < step_step_) {
     verdict_ = Verdict::kRight;

@@ -17,29 +17,57 @@ constexpr std::int32_t kLeastContrast = 40;
 }  // namespace
 
 void StillPicture::look(const Field& field) {
+  told_ = false;
   if (field.status == FieldStatus::kMissing) {
     return;  // the time that passed is seen in the next field
   }
   Means means{};
   if (field.status != FieldStatus::kGood || !mean_blocks(field.pixels, means) ||
       !has_contrast(means)) {
-    resting_ = false;
     forget();
     return;
   }
   const auto parity = static_cast<std::size_t>(field.parity);
-  const bool first = compared_ == std::array<bool, 3>{};
-  const FieldTime passed = field.mid_exposure - last_time_;
-  const bool in_time =
-      passed > FieldTime(0) && passed <= setup_.longest_gap && field.sequence >= last_sequence_;
-  if (first || !in_time || (compared_[parity] && !alike(means, reference_[parity]))) {
+  const bool counted = field.sequence >= last_sequence_;
+  last_sequence_ = field.sequence;
+  if (!resting_) {
     begin(field, means);
   } else if (!compared_[parity]) {
     reference_[parity] = means;
     compared_[parity] = true;
+  } else {
+    const FieldTime passed = field.mid_exposure - last_time_[parity];
+    const bool same = means == last_[parity];
+    const bool at_rest = counted && passed > FieldTime(0) && passed <= setup_.longest_gap &&
+                         alike(means, reference_[parity]);
+    if (same && noisy_) {
+      forget();
+    } else if (at_rest) {
+      noisy_ = noisy_ || shows_noise(last_[parity], means);
+      told_ = true;
+    } else {
+      begin(field, means);
+    }
   }
-  last_time_ = field.mid_exposure;
-  last_sequence_ = field.sequence;
+  last_[parity] = means;
+  last_time_[parity] = field.mid_exposure;
+}
+
+// Whether blocks that are no edges differ: motion changes edges, noise all.
+bool StillPicture::shows_noise(const Means& before, const Means& now) {
+  constexpr std::int32_t kFlat = 3;  // grey levels to the blocks beside it
+  const auto near = [](std::uint8_t a, std::uint8_t b) {
+    return std::abs(std::int32_t{a} - std::int32_t{b}) < kFlat;
+  };
+  std::int32_t flat = 0;
+  std::int32_t changed = 0;
+  for (std::size_t i = 1; i + 1 < now.size(); ++i) {
+    if (near(now[i], now[i - 1]) && near(now[i], now[i + 1])) {
+      ++flat;
+      changed += now[i] != before[i] ? 1 : 0;
+    }
+  }
+  return changed >= kLines / 2 && 8 * changed >= flat;
 }
 
 void StillPicture::begin(const Field& field, const Means& means) {
@@ -49,6 +77,7 @@ void StillPicture::begin(const Field& field, const Means& means) {
   reference_[parity] = means;
   since_ = field.number;
   resting_ = true;
+  told_ = true;
 }
 
 bool StillPicture::mean_blocks(const FieldView& field, Means& means) const {

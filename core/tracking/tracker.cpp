@@ -324,6 +324,7 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
 template <Scalar S>
 void Tracker<S>::lose(Reason reason) {
   state_ = TrackState::kLost;
+  measured_now_ = false;
   reason_ = reason;
   primary_known_ = false;
   record_.begin_field();

@@ -86,6 +86,8 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
     sighting.axis_px = {to_scaled(pixel->x, 16), to_scaled(pixel->y, 16)};
   }
   sighting.velocity_known = motion_.known;
+  sighting.velocity_span_us = static_cast<std::int32_t>(
+      std::int64_t{to_scaled(motion_.interval_s, 16)} * 1'000'000 / 65536);
   sighting.velocity_um_s = {micrometres(motion_.velocity_mm_s.x) / 256,
                             micrometres(motion_.velocity_mm_s.y) / 256};
   const TubeAddress nearest = model_->lattice.nearest(shown_.anchor, tool_shown_.local);

@@ -13,6 +13,10 @@ constexpr FieldTime kResolution = std::chrono::microseconds(1);
 
 constexpr std::int64_t kMicroseconds = 1'000'000;  // a second
 
+// Fields that a claim waits for, whatever their stamps say: one whose clock stands still brings
+// none.
+constexpr std::int32_t kLongestWait = 64;
+
 // Not below the length of a vector, and at most an eighth above it.
 std::int64_t length_above(const std::array<std::int32_t, 2>& vector) {
   const std::int64_t x = vector[0] < 0 ? -std::int64_t{vector[0]} : vector[0];
@@ -25,8 +29,12 @@ std::int64_t length_above(const std::array<std::int32_t, 2>& vector) {
 template <Scalar S>
 void ClaimJudge<S>::answer_waiting(const RecentFields<S>& recent, ReplyList& replies) {
   StaticVector<Waiting, kMaxWaitingClaims> still;
-  for (const Waiting& one : waiting_) {
-    if (const auto answer = judge(one.claim, one.at, recent)) {
+  for (Waiting one : waiting_) {
+    auto answer = judge(one.claim, one.at, recent);
+    if (!answer && ++one.fields > kLongestWait) {
+      answer = ClaimReply{one.claim.tube, ClaimVerdict::kUnknown, ClaimDoubt::kNoSighting, {}, -1};
+    }
+    if (answer) {
       static_cast<void>(
           replies.try_push_back({one.id, one.origin, recent.last().sighting.time, *answer}));
     } else {
@@ -43,7 +51,7 @@ void ClaimJudge<S>::take(const Event& event, const Claim& claim, const RecentFie
   const FieldTime at = event.at.value_or(now);
   auto answer = judge(claim, at, recent);
   if (!answer) {
-    if (waiting_.try_push_back({event.id, event.origin, at, claim})) {
+    if (waiting_.try_push_back({event.id, event.origin, at, claim, 0})) {
       return;
     }
     answer = ClaimReply{claim.tube, ClaimVerdict::kUnknown, ClaimDoubt::kBusy, {}, -1};
@@ -97,13 +105,15 @@ ClaimReply ClaimJudge<S>::judge_by(const Claim& claim, FieldTime at,
   return reply;
 }
 
-// offset + v t + a t^2 / 2 > 0.4 steps, v being the last speed where one is known.
+// offset + v t + a t (t + T) / 2 > 0.4 steps. The last speed v is the mean over the span T between
+// two fields, and so half of that old.
 template <Scalar S>
 bool ClaimJudge<S>::may_have_left(const Sighting& sighting, FieldTime span) const {
   const std::int64_t span_us = span.count() / 1000 + 1;
   const std::int64_t speed_um_s =
       sighting.velocity_known ? length_above(sighting.velocity_um_s) : limits_.max_um_s;
-  const std::int64_t gained_um_s = limits_.max_um_s2 * span_us / kMicroseconds / 2 + 1;
+  const std::int64_t age_us = span_us + sighting.velocity_span_us;
+  const std::int64_t gained_um_s = limits_.max_um_s2 * age_us / kMicroseconds / 2 + 1;
   const std::int64_t moved_um = (speed_um_s + gained_um_s) * span_us / kMicroseconds + 1;
   const std::int64_t offset_um = sighting.offset_um_q8 / 256 + 1;
   return 10 * (offset_um + moved_um) > 4 * limits_.step_um;

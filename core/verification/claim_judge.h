@@ -60,6 +60,7 @@ class ClaimJudge {
     EventOrigin origin = EventOrigin::kRobot;
     FieldTime at{0};
     Claim claim;
+    std::int32_t fields = 0;  ///< for how many it has waited
   };
 
   [[nodiscard]] ClaimReply judge_by(const Claim& claim, FieldTime at,

@@ -19,6 +19,13 @@ PickReply judge_pick(const Pick& pick, const RecentFields<S>& recent,
     return {PickDoubt::kNotTracking, {}};
   }
   const ImagePoint at = tracking::make_image_point(pick.at_px);
+  const auto inside = [](std::int32_t px_q16, std::int32_t size_px) {
+    constexpr std::int32_t kHalf = 1 << 15;
+    return px_q16 >= -kHalf && px_q16 <= (size_px << 16) - kHalf;
+  };
+  if (!inside(at.u_q16, model.picture_width_px) || !inside(at.v_q16, model.picture_height_px)) {
+    return {PickDoubt::kNoTube, {}};
+  }
   const auto local = tracking::to_sheet<S>(
       model, seen->pose, {from_scaled<Px<S>>(at.u_q16, 16), from_scaled<Px<S>>(at.v_q16, 16)});
   if (!local) {

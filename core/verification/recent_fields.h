@@ -26,8 +26,19 @@ class RecentFields {
  public:
   static constexpr std::int32_t kCapacity = 256;
 
-  /// Takes the place of the oldest when there are kCapacity.
+  /// Nothing is known of what was before.
+  void clear() { count_ = 0; }
+
+  /// Takes the place of the oldest when there are kCapacity. Where the time of fields does not go
+  /// on, those before are of another clock, and forgotten.
   void push(const RecentField<S>& field) {
+    if (field.sighting.status != FieldStatus::kMissing) {
+      if (count_ > 0 && came_ && field.sighting.time <= last_came_) {
+        clear();
+      }
+      came_ = true;
+      last_came_ = field.sighting.time;
+    }
     fields_[slot(count_)] = field;
     ++count_;
     newest_ = count_ == 1 ? field.sighting.time : max_of(newest_, field.sighting.time);
@@ -78,6 +89,8 @@ class RecentFields {
   std::array<RecentField<S>, static_cast<std::size_t>(kCapacity)> fields_{};
   std::int64_t count_ = 0;
   FieldTime newest_{0};
+  bool came_ = false;
+  FieldTime last_came_{0};  ///< of the last field that was not missing
 };
 
 }  // namespace tubesight::core::verification

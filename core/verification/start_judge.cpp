@@ -13,14 +13,22 @@ void StartJudge<S>::configure() {
   const std::int64_t step_q16 = to_scaled(model_->lattice.parameters().shortest_step, 16);
   const std::int64_t speed_q4 = to_scaled(model_->max_speed_mm_s, 4);
   const std::int64_t gap_us = speed_q4 > 0 ? step_q16 * 600'000 / (speed_q4 << 12) : 0;
+  longest_gap_ = std::chrono::microseconds(gap_us);
   picture_.configure({model_->window_left_px, model_->window_top_px, model_->window_right_px,
-                      model_->window_bottom_px, std::chrono::microseconds(gap_us)});
+                      model_->window_bottom_px, longest_gap_});
 }
 
 template <Scalar S>
 void StartJudge<S>::look(const Field& field, bool tracking) {
   present_ = field.number;
   by_track_ = tracking;
+  const FieldTime passed = field.mid_exposure - last_time_;
+  in_time_ = field.status == FieldStatus::kGood && passed > FieldTime(0) &&
+             passed <= longest_gap_ && field.sequence >= last_sequence_;
+  if (field.status != FieldStatus::kMissing) {
+    last_time_ = field.mid_exposure;
+    last_sequence_ = field.sequence;
+  }
   if (tracking) {
     picture_.forget();
   } else {
@@ -38,8 +46,8 @@ StartRefusal StartJudge<S>::judge(const Start& start) const {
     return StartRefusal::kUnknownField;
   }
   if (by_track_) {
-    return tracked_rest_ && rest_since_ <= *start.seen_field ? StartRefusal::kNone
-                                                             : StartRefusal::kMoved;
+    const bool rested = tracked_rest_ && in_time_ && rest_since_ <= *start.seen_field;
+    return rested ? StartRefusal::kNone : StartRefusal::kMoved;
   }
   const std::int64_t* const since = picture_.since();
   return since != nullptr && *since <= *start.seen_field ? StartRefusal::kNone

@@ -17,7 +17,9 @@ namespace tubesight::core::verification {
 /// still ever since.
 ///
 /// While the box tracks, the track tells; while it waits or is lost, the pictures do. Where the one
-/// takes over from the other the rest begins anew. One thread; no heap.
+/// takes over from the other the rest begins anew, and so it does where fields are missing for as
+/// long as the tool needs to the next tube: a start is no field that the track has followed. One
+/// thread; no heap.
 template <Scalar S>
 class StartJudge {
  public:
@@ -45,6 +47,10 @@ class StartJudge {
   std::int64_t rest_since_ = 0;         ///< field of that
   bool tracked_rest_ = false;
   bool by_track_ = false;  ///< the track tells
+  bool in_time_ = false;   ///< the present field follows the one before it closely enough for that
+  FieldTime longest_gap_{0};
+  FieldTime last_time_{0};  ///< of the last field that came
+  std::int64_t last_sequence_ = 0;
   std::int64_t present_ = -1;
 };
 

@@ -64,8 +64,15 @@ void check_times(const std::vector<FieldMeta>& rows, GrowingColumn column) {
                              " rows, expected more in each");
     return;
   }
+  std::size_t came = 0;  // the last row of a field that came
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const FieldMeta& before = rows[i - 1];
+    // A field that comes after it was given up may be older than its giving up.
+    const bool missing = rows[i].status == core::FieldStatus::kMissing;
+    const FieldMeta& before = rows[missing ? i - 1 : came];
+    came = missing ? came : i;
+    if (!missing && &before == rows.data() && before.status == core::FieldStatus::kMissing) {
+      continue;
+    }
     if (rows[i].time == before.time) {
       column.tell_same(before, rows[i], seconds_text(rows[i].time),
                        "each field's own mid-exposure");

@@ -222,6 +222,75 @@ TEST_F(HonestTime, WhileTrackingTheTrackTellsWhetherTheToolRested) {
   EXPECT_EQ(run_.sighting().tool, (TubeAddress{20, 11}));
 }
 
+// While nobody looked the tool can have gone to the next tube, where the picture is the same.
+TEST_F(HonestTime, AStartOnAPictureBeforeAGapIsRefusedThoughTheTrackRested) {
+  run_.begin();
+  for (int i = 0; i < 10; ++i) {
+    run_.step(kOverTube);
+  }
+  const std::int64_t seen = run_.number;
+  run_.drop(8);
+  tests::set_clicks(*run_.sheet, kOverTube, {kClicked.begin(), kClicked.end()}, {3.0, -2.0},
+                    *run_.settings);
+  run_.add(tests::event_of(Start{run_.settings->start.tubes, seen, false}));
+  run_.step(moved(kOverTube, kPitch_mm));
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kMoved);
+  EXPECT_FALSE(run_.sighting().aligned);
+}
+
+TEST_F(HonestTime, AStartOnAPictureBeforeAStoppedFrameStoreIsRefused) {
+  run_.sheet->look.noise = 3.0;
+  for (int i = 0; i < 12; ++i) {
+    run_.step(kOverTube);
+  }
+  const std::int64_t seen = run_.number;
+  for (int i = 0; i < 10; ++i) {
+    run_.step_on_last_picture(kOverTube);  // meanwhile the tool goes on by a step
+  }
+  for (int i = 0; i < 4; ++i) {
+    run_.step(moved(kOverTube, kPitch_mm));
+  }
+  add_start(kOverTube, seen);
+  run_.step(moved(kOverTube, kPitch_mm));
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kMoved);
+}
+
+TEST_F(HonestTime, AStartWithoutAPictureLeavesAGoodTrackAlone) {
+  run_.begin();
+  add_start(kOverTube, std::nullopt);
+  run_.status = FieldStatus::kDamaged;
+  run_.step(kOverTube);
+  EXPECT_EQ(only_reply<StartReply>().refusal, StartRefusal::kPicture);
+  EXPECT_EQ(run_.sighting().state, TrackState::kDegraded);
+  run_.step(kOverTube);
+  EXPECT_EQ(run_.sighting().state, TrackState::kTracking);
+}
+
+// The track before a new start was wrong, or there would be none.
+TEST_F(HonestTime, ANewStartEndsWhatTheTrackBeforeItVouchesFor) {
+  run_.begin();
+  run_.step(kOverTube);
+  add_start(kOverTube, std::nullopt);
+  Event claim = tests::event_of(Claim{kTube});
+  claim.at = run_.now - kFieldSpan;
+  run_.add(claim);
+  run_.step(kOverTube);
+  ASSERT_EQ(run_.output().replies.size(), 2);
+  EXPECT_EQ(content_of<StartReply>(run_.output().replies[0]).refusal, StartRefusal::kNone);
+  EXPECT_EQ(content_of<ClaimReply>(run_.output().replies[1]).field, run_.number)
+      << "not by the field before the start";
+}
+
+TEST_F(HonestTime, APickBesideThePictureNamesNoTube) {
+  run_.begin();
+  for (const std::array<double, 2>& at :
+       {std::array{-1.0, 100.0}, std::array{100.0, 1e4}, std::array{65000.0, 65000.0}}) {
+    run_.add_pick(at);
+    run_.step(kOverTube);
+    EXPECT_EQ(only_reply<PickReply>().doubt, PickDoubt::kNoTube);
+  }
+}
+
 TEST_F(HonestTime, APickIsJudgedInTheFieldThatWasSeen) {
   run_.begin();
   const std::int64_t seen = run_.number;

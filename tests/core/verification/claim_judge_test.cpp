@@ -211,6 +211,31 @@ TEST_F(ClaimJudgeTest, TakesAnUnknownSpeedForTheGreatest) {
   EXPECT_EQ(only().doubt, ClaimDoubt::kMoving);
 }
 
+TEST_F(ClaimJudgeTest, WaitsNoLongerThanForSoManyFields) {
+  claim(-milliseconds(5));
+  const FieldTime stuck = now_;
+  int waited = 0;
+  while (replies_.empty() && waited < 200) {
+    now_ = stuck - milliseconds(20);  // a camera that stamps all its fields alike
+    see();
+    ++waited;
+  }
+  EXPECT_EQ(only().verdict, ClaimVerdict::kUnknown);
+  EXPECT_LT(waited, 100);
+}
+
+// A velocity that is the mean over a tenth of a second is old: 3000 mm/s2 may have added 12 mm by
+// 45 ms behind it.
+TEST_F(ClaimJudgeTest, TakesTheAgeOfTheVelocityIntoAccount) {
+  Sighting old = aligned();
+  old.velocity_span_us = 150'000;
+  see(old);
+  now_ += milliseconds(80);
+  see(old);
+  claim(milliseconds(45));
+  EXPECT_EQ(only().doubt, ClaimDoubt::kMoving);
+}
+
 TEST_F(ClaimJudgeTest, SaysSoWhenTooManyWait) {
   for (int i = 0; i < kMaxWaitingClaims; ++i) {
     claim(-milliseconds(5), kTube, i);

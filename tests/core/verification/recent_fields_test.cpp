@@ -48,6 +48,20 @@ TEST(RecentFields, KeepTheLastAndForgetTheOldest) {
 
 TEST(RecentFields, HoldASecondOf120FieldsTwice) { static_assert(Recent::kCapacity >= 2 * 120); }
 
+TEST(RecentFields, AreForgottenWhereTheTimeOfFieldsDoesNotGoOn) {
+  const auto recent = std::make_unique<Recent>();
+  RecentField<FixedPoint> field;
+  field.sighting.status = FieldStatus::kGood;
+  for (const int time_ms : {3'600'000, 100, 120}) {  // the first was stamped an hour ahead
+    field.sighting.time = milliseconds(time_ms);
+    field.sighting.field = time_ms;
+    recent->push(field);
+  }
+  EXPECT_EQ(recent->newest(), milliseconds(120));
+  EXPECT_EQ(recent->nearest(milliseconds(3'600'000))->sighting.field, 120);
+  EXPECT_EQ(recent->find(3'600'000), nullptr);
+}
+
 TEST(RecentFields, TellTheLatestInstantThoughALateFieldIsOlder) {
   const auto recent = std::make_unique<Recent>();
   push(*recent, 1, 100);
