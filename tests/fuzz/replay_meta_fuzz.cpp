@@ -26,17 +26,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(message.find('\n') == std::string::npos && message.starts_with("fuzz.meta.csv:"));
   }
   const drivers::FieldMeta* before = nullptr;
-  const drivers::FieldMeta* counted = nullptr;
+  const drivers::FieldMeta* came = nullptr;  // the last row of a field that came
   for (const drivers::FieldMeta& row : meta.rows()) {
     require(row.field >= 0 && meta.find(row.field) == &row);
     require(row.lamp_permille.value_or(0) >= 0 && row.lamp_permille.value_or(0) <= 1000);
     require(before == nullptr || row.field > before->field);
-    require(!good || before == nullptr || row.time > before->time);
-    before = &row;
-    if (row.status != core::FieldStatus::kMissing) {
-      require(!good || counted == nullptr || row.sequence > counted->sequence);
-      counted = &row;
+    if (row.status == core::FieldStatus::kMissing) {
+      require(!good || before == nullptr || row.time > before->time);
+    } else {
+      // One that comes late may be older than the giving up of those before it.
+      require(!good || came == nullptr || (row.time > came->time && row.sequence > came->sequence));
+      came = &row;
     }
+    before = &row;
   }
   return 0;
 }
