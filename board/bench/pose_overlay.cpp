@@ -63,7 +63,7 @@ core::RgbImageView draw_pose(const core::ImageView& still,
   core::overlay::copy_grey(still, picture);
   Painter painter(picture);
   const core::pose::PoseEstimate& pose = outcome.pose.estimate;
-  const core::pose::SheetView view(model, pose.T_camera_sheet);
+  const core::pose::SheetView view(model.camera, pose.T_camera_sheet);
   for (const core::pose::PictureTube& tube : outcome.tubes) {
     const double diameter_mm = tube.rim >= 0 && tube.rim < outcome.pose.rims.size() &&
                                        outcome.pose.rims[tube.rim].diameter_mm > 0.0

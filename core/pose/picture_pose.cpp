@@ -198,7 +198,7 @@ class PicturePose {
   }
 
   void measure(const Pass& pass) {
-    const SheetView view(model_, outcome_.pose.estimate.T_camera_sheet);
+    const SheetView view(model_.camera, outcome_.pose.estimate.T_camera_sheet);
     list_wanted(view, pass);
     workspace_.rims.clear();
     outcome_.tubes.clear();

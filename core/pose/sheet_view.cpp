@@ -8,9 +8,9 @@ constexpr double kNearest_mm = 1.0;
 
 }  // namespace
 
-SheetView::SheetView(const PoseModel& model,
+SheetView::SheetView(const camera::CameraModel<double>& camera,
                      const Transform<frames::Camera, frames::Sheet>& T_camera_sheet)
-    : camera_(model.camera), T_camera_sheet_(T_camera_sheet) {}
+    : camera_(camera), T_camera_sheet_(T_camera_sheet) {}
 
 std::optional<Eigen::Vector2d> SheetView::to_pixel(const Eigen::Vector3d& point_mm) const {
   const Eigen::Vector3d seen = T_camera_sheet_ * point_mm;

@@ -5,14 +5,16 @@
 #include <Eigen/Core>
 
 #include "core/base/transform.h"
-#include "core/pose/pose_model.h"
+#include "core/camera/camera_model.h"
 
 namespace tubesight::core::pose {
 
 /// The sheet as the camera sees it from one pose: points of its plane to pixels and back.
 class SheetView {
  public:
-  SheetView(const PoseModel& model, const Transform<frames::Camera, frames::Sheet>& T_camera_sheet);
+  /// `camera` outlives the view.
+  SheetView(const camera::CameraModel<double>& camera,
+            const Transform<frames::Camera, frames::Sheet>& T_camera_sheet);
 
   /// Image of a point of the sheet's plane (mm, sheet frame), full-frame pixels; empty behind the
   /// camera or where the lens has no image.

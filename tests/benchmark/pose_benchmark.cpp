@@ -118,7 +118,7 @@ void measure_nine(Still& s, const SheetView& view) {
 void measure_edges(benchmark::State& state) {
   Still& s = still();
   s.estimate(true);
-  const SheetView view(s.model, s.outcome.pose.estimate.T_camera_sheet);
+  const SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
   for (auto _ : state) {
     measure_nine(s, view);
   }
@@ -129,7 +129,7 @@ BENCHMARK(measure_edges)->Unit(benchmark::kMicrosecond);
 void measure_and_fit(benchmark::State& state) {
   Still& s = still();
   s.estimate(true);
-  const SheetView view(s.model, s.outcome.pose.estimate.T_camera_sheet);
+  const SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
   for (auto _ : state) {
     measure_nine(s, view);
     const PoseOutcome pose = estimate_pose(s.model, s.workspace.rims, {}, s.workspace.pose);

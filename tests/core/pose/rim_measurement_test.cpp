@@ -23,7 +23,7 @@ class RimMeasurementOf : public ::testing::Test {
     const Transform<frames::Sheet, frames::Tool> T_sheet_tool(
         rotation_from_degrees({p.alpha_deg, p.beta_deg, p.gamma_deg}),
         {p.x_mm + 0.1, p.y_mm, -p.height_mm});
-    const SheetView view(still_.model, still_.model.T_camera_tool * T_sheet_tool.inverse());
+    const SheetView view(still_.model.camera, still_.model.T_camera_tool * T_sheet_tool.inverse());
     EXPECT_TRUE(project_rim(view, still_.model.center_mm(address), still_.model.bore_mm / 2.0, 5.0,
                             outline_));
     return measure_rim(picture, outline_, {}, rim_);
