@@ -179,8 +179,8 @@ class PoseRun {
     return true;
   }
 
-  static core::pose::Matrix6d matrix_of(const std::array<double, 36>& rows) {
-    core::pose::Matrix6d matrix = core::pose::Matrix6d::Identity();
+  static core::math::Matrix6d matrix_of(const std::array<double, 36>& rows) {
+    core::math::Matrix6d matrix = core::math::Matrix6d::Identity();
     for (int i = 0; i < 36; ++i) {
       matrix(i / 6, i % 6) = rows[static_cast<std::size_t>(i)];
     }
@@ -203,7 +203,7 @@ class PoseRun {
   /// One pose, with its rows and its text.
   ExitStatus take(StillAverager& averager, std::span<const Still> stills) {
     const StillsRead read = averager.read(stills);
-    PoseRow row{stills.front().name(), nullptr, core::pose::Matrix6d::Zero(), file_.has_tool, true};
+    PoseRow row{stills.front().name(), nullptr, core::math::Matrix6d::Zero(), file_.has_tool, true};
     ExitStatus status = read.status;
     std::string message = read.message;
     TubesFound tubes;

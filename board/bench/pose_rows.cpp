@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "core/pose/angle_covariance.h"
-#include "core/pose/rotation.h"
+#include "core/math/angle_covariance.h"
+#include "core/math/rotation.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
 
@@ -45,7 +45,7 @@ void append_transform(std::string& out, const core::Transform<To, From>& T) {
   for (int i = 0; i < 3; ++i) {
     append_cell(out, T.translation_mm()(i), 4);
   }
-  for (const double angle : core::pose::angles_of(T.rotation())) {
+  for (const double angle : core::math::angles_of(T.rotation())) {
     append_cell(out, angle * kDegrees, 5);
   }
 }
@@ -53,8 +53,8 @@ void append_transform(std::string& out, const core::Transform<To, From>& T) {
 }  // namespace
 
 Eigen::Vector3d angle_sigmas(const Eigen::Matrix3d& rotation,
-                             const core::pose::Matrix6d& covariance) {
-  return core::pose::angle_covariance(rotation, covariance.bottomRightCorner<3, 3>())
+                             const core::math::Matrix6d& covariance) {
+  return core::math::angle_covariance(rotation, covariance.bottomRightCorner<3, 3>())
       .diagonal()
       .cwiseMax(0.0)
       .cwiseSqrt();

@@ -25,7 +25,7 @@ inline constexpr std::string_view kCovarianceHeader =
 struct PoseRow {
   std::string image;
   const core::pose::PoseEstimate* estimate = nullptr;  ///< null: refused, all cells stay empty
-  core::pose::Matrix6d covariance;                     ///< of the sigmas
+  core::math::Matrix6d covariance;                     ///< of the sigmas
   bool has_tool = true;                                ///< else the tool's cells stay empty
   bool has_tube = true;  ///< a tube stands at the nearest address; else its cells stay empty
 };
@@ -37,6 +37,6 @@ void append_covariance_row(std::string& out, const PoseRow& row);
 /// Standard deviations of alpha, beta, gamma in rad, from the covariance of the rotation vector in
 /// the sheet frame.
 [[nodiscard]] Eigen::Vector3d angle_sigmas(const Eigen::Matrix3d& rotation,
-                                           const core::pose::Matrix6d& covariance);
+                                           const core::math::Matrix6d& covariance);
 
 }  // namespace tubesight::board

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include "board/bench/pose_words.h"
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 #include "core/pose/tool_answer.h"
 #include "core/verification/position_correction.h"
 
@@ -51,7 +51,7 @@ double tilt_sigma_rad(const PoseRow& row) {
 
 void print_six(std::string& out, const char* name, const Eigen::Vector3d& place,
                const Eigen::Matrix3d& rotation) {
-  const auto angles = core::pose::angles_of(rotation);
+  const auto angles = core::math::angles_of(rotation);
   print(out, "  %s   x %.4f  y %.4f  z %.4f mm   alpha %.4f  beta %.4f  gamma %.4f deg\n", name,
         place.x(), place.y(), place.z(), angles[0] * kDegrees, angles[1] * kDegrees,
         angles[2] * kDegrees);

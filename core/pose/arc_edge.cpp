@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/gaussian_step.h"
+#include "core/math/cholesky.h"
+#include "core/math/gaussian_step.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -181,7 +181,7 @@ StepSums sum_step(const Profile& window, double blur_px) {
   StepSums sums;
   sums.n = static_cast<double>(window.size());
   for (const ProfileSample& sample : window) {
-    const GaussianStep step = gaussian_step(sample.distance * inverse_blur);
+    const math::GaussianStep step = math::gaussian_step(sample.distance * inverse_blur);
     const double grey = sample.grey;
     sums.s += step.share;
     sums.ss += step.share * step.share;
@@ -211,7 +211,7 @@ bool move_edge(const StepSums& sums, const ArcEdgeOptions& options, ArcEdge& edg
   Eigen::Matrix3d normal;  // of dark, contrast and move: the lower triangle counts
   normal << sums.n, 0.0, 0.0, sums.s, sums.ss, 0.0, by_move * sums.g, by_move * sums.gs,
       by_move * by_move * sums.gg;
-  Cholesky<3> cholesky;
+  math::Cholesky<3> cholesky;
   if (!cholesky.factor(normal)) {
     return false;
   }

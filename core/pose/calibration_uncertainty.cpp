@@ -4,15 +4,16 @@
 
 #include "core/base/trigonometry.h"
 #include "core/camera/camera_setup.h"
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
 
 using SheetTool = Transform<frames::Sheet, frames::Tool>;
 
-Matrix6d covariance_of(const std::array<double, 6>& sigma, const Matrix6d& correlation) {
-  Matrix6d covariance;
+math::Matrix6d covariance_of(const std::array<double, 6>& sigma,
+                             const math::Matrix6d& correlation) {
+  math::Matrix6d covariance;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       covariance(i, j) = correlation(i, j) * sigma[static_cast<std::size_t>(i)] *
@@ -22,8 +23,8 @@ Matrix6d covariance_of(const std::array<double, 6>& sigma, const Matrix6d& corre
   return covariance;
 }
 
-Matrix6d carried(const Matrix6d& J, const Matrix6d& covariance) {
-  const Matrix6d half = J.lazyProduct(covariance);
+math::Matrix6d carried(const math::Matrix6d& J, const math::Matrix6d& covariance) {
+  const math::Matrix6d half = J.lazyProduct(covariance);
   return half.lazyProduct(J.transpose());
 }
 
@@ -59,11 +60,12 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
   }
 }
 
-Result<Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
-                                    const PoseEstimate& estimate,
-                                    const std::array<double, 6>& steps,
-                                    const RimBundleOptions& options, PoseWorkspace& workspace) {
-  Matrix6d J = Matrix6d::Zero();
+Result<math::Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
+                                          const PoseEstimate& estimate,
+                                          const std::array<double, 6>& steps,
+                                          const RimBundleOptions& options,
+                                          PoseWorkspace& workspace) {
+  math::Matrix6d J = math::Matrix6d::Zero();
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i] == 0.0) {
       continue;
@@ -81,39 +83,40 @@ Result<Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
     const auto column = static_cast<Eigen::Index>(i);
     J.col(column).head<3>() = (above->translation_mm() - below->translation_mm()) / steps[i];
     J.col(column).tail<3>() =
-        log_rotation(above->rotation() * below->rotation().transpose()) / steps[i];
+        math::log_rotation(above->rotation() * below->rotation().transpose()) / steps[i];
   }
   return J;
 }
 
-Matrix6d tool_sensitivity(const PoseModel& model, const PoseEstimate& estimate) {
+math::Matrix6d tool_sensitivity(const PoseModel& model, const PoseEstimate& estimate) {
   const Eigen::Matrix3d R_sheet_camera = estimate.T_camera_sheet.rotation().transpose();
-  const std::array<double, 3> angles = angles_of(model.T_camera_tool.rotation());
-  const Eigen::Matrix3d Rz = exp_rotation(Eigen::Vector3d(0.0, 0.0, angles[0]));
-  const Eigen::Matrix3d Ry = exp_rotation(Eigen::Vector3d(0.0, angles[1], 0.0));
+  const std::array<double, 3> angles = math::angles_of(model.T_camera_tool.rotation());
+  const Eigen::Matrix3d Rz = math::exp_rotation(Eigen::Vector3d(0.0, 0.0, angles[0]));
+  const Eigen::Matrix3d Ry = math::exp_rotation(Eigen::Vector3d(0.0, angles[1], 0.0));
   Eigen::Matrix3d turns;  // rotation vectors in the camera frame
   turns << Eigen::Vector3d::UnitZ(), Rz.col(1), Rz * Ry.col(0);
-  Matrix6d J = Matrix6d::Zero();
+  math::Matrix6d J = math::Matrix6d::Zero();
   J.topLeftCorner<3, 3>() = R_sheet_camera;
   J.bottomRightCorner<3, 3>() = radians(1.0) * (R_sheet_camera * turns);
   return J;
 }
 
-Result<Matrix6d> calibration_covariance(const PoseModel& model, const RimList& rims,
-                                        const PoseEstimate& estimate,
-                                        const CalibrationUncertainty& uncertainty,
-                                        const RimBundleOptions& options, PoseWorkspace& workspace) {
+Result<math::Matrix6d> calibration_covariance(const PoseModel& model, const RimList& rims,
+                                              const PoseEstimate& estimate,
+                                              const CalibrationUncertainty& uncertainty,
+                                              const RimBundleOptions& options,
+                                              PoseWorkspace& workspace) {
   const auto by_camera =
       camera_sensitivity(model, rims, estimate, uncertainty.camera_sigma, options, workspace);
   if (!by_camera) {
     return Unexpected(by_camera.error());
   }
-  const Matrix6d camera =
+  const math::Matrix6d camera =
       carried(*by_camera, covariance_of(uncertainty.camera_sigma, uncertainty.camera_correlation));
-  const Matrix6d tool =
+  const math::Matrix6d tool =
       carried(tool_sensitivity(model, estimate),
               covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation));
-  return Matrix6d(camera + tool);
+  return math::Matrix6d(camera + tool);
 }
 
 }  // namespace tubesight::core::pose

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/base/result.h"
-#include "core/pose/matrix.h"
+#include "core/math/matrix.h"
 #include "core/pose/pose_estimate.h"
 
 namespace tubesight::core::pose {
@@ -24,10 +24,10 @@ inline constexpr std::int32_t kCameraParameters = 6;
 struct CalibrationUncertainty {
   /// Standard deviations in the order of CameraParameter; zero: exact, or held fixed.
   std::array<double, 6> camera_sigma{};
-  Matrix6d camera_correlation = Matrix6d::Identity();
+  math::Matrix6d camera_correlation = math::Matrix6d::Identity();
   /// Of T_camera_tool: x, y, z in mm, alpha, beta, gamma in degrees, as in `[tool]`.
   std::array<double, 6> tool_sigma{};
-  Matrix6d tool_correlation = Matrix6d::Identity();
+  math::Matrix6d tool_correlation = math::Matrix6d::Identity();
 };
 
 /// Adds `by` to one parameter of the camera.
@@ -37,25 +37,24 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
 /// the whole fit, half a `step` to either side. A step of zero leaves its column zero.
 ///
 /// Twelve fits. kOutOfRange: a changed camera can't be made; kIllConditioned: a fit fails.
-[[nodiscard]] Result<Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
-                                                  const PoseEstimate& estimate,
-                                                  const std::array<double, 6>& steps,
-                                                  const RimBundleOptions& options,
-                                                  PoseWorkspace& workspace);
+[[nodiscard]] Result<math::Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
+                                                        const PoseEstimate& estimate,
+                                                        const std::array<double, 6>& steps,
+                                                        const RimBundleOptions& options,
+                                                        PoseWorkspace& workspace);
 
 /// Derivatives of T_sheet_tool, (tau, theta), by x, y, z (mm) and alpha, beta, gamma (degrees) of
 /// T_camera_tool = Rz(alpha) Ry(beta) Rx(gamma), the sheet's pose in the camera frame unchanged.
-[[nodiscard]] Matrix6d tool_sensitivity(const PoseModel& model, const PoseEstimate& estimate);
+[[nodiscard]] math::Matrix6d tool_sensitivity(const PoseModel& model, const PoseEstimate& estimate);
 
 /// The calibrations' share of the covariance of T_sheet_tool, to be added to the picture's: what
 /// `--total` tells. Errors as of camera_sensitivity().
 ///
 /// The two calibrations count as independent of each other. A tool calibration made with the same
 /// camera cancels part of the camera's share where the tool is docked, so this is on the safe side.
-[[nodiscard]] Result<Matrix6d> calibration_covariance(const PoseModel& model, const RimList& rims,
-                                                      const PoseEstimate& estimate,
-                                                      const CalibrationUncertainty& uncertainty,
-                                                      const RimBundleOptions& options,
-                                                      PoseWorkspace& workspace);
+[[nodiscard]] Result<math::Matrix6d> calibration_covariance(
+    const PoseModel& model, const RimList& rims, const PoseEstimate& estimate,
+    const CalibrationUncertainty& uncertainty, const RimBundleOptions& options,
+    PoseWorkspace& workspace);
 
 }  // namespace tubesight::core::pose

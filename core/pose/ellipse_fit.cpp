@@ -6,8 +6,8 @@
 
 #include <Eigen/LU>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/symmetric_eigen.h"
+#include "core/math/cholesky.h"
+#include "core/math/symmetric_eigen.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -126,7 +126,7 @@ Matrix6 scatter_of(const Moments& m) {
 
 bool fit_linear(const Moments& m, Vector6& k) {
   const Matrix6 scatter = scatter_of(m);
-  Cholesky<5> cholesky;
+  math::Cholesky<5> cholesky;
   if (!cholesky.factor(scatter.topLeftCorner<5, 5>())) {
     return false;
   }
@@ -148,7 +148,7 @@ bool fit_direct(const Moments& m, Vector6& k) {
   Eigen::Matrix3d reduced = scatter.topLeftCorner<3, 3>() + cross * eliminate;
   // Points that lie on an ellipse exactly leave it singular; this moves coefficients by 1e-13.
   reduced += 1e-14 * reduced.trace() * Eigen::Matrix3d::Identity();
-  Cholesky<3> cholesky;
+  math::Cholesky<3> cholesky;
   if (!cholesky.factor(reduced, 1e-16)) {
     return false;
   }
@@ -159,7 +159,7 @@ bool fit_direct(const Moments& m, Vector6& k) {
     const Eigen::Vector3d column = constraint * cholesky.backward(Eigen::Vector3d::Unit(i));
     symmetric.col(i) = cholesky.forward(column);
   }
-  const SymmetricEigen<3> eigen(0.5 * (symmetric + symmetric.transpose()));
+  const math::SymmetricEigen<3> eigen(0.5 * (symmetric + symmetric.transpose()));
   k.head<3>() = cholesky.backward(eigen.vector_of_greatest()).normalized();
   k.tail<3>() = eliminate * k.head<3>();
   return true;
@@ -182,7 +182,7 @@ bool fit_taubin(const Moments& m, Vector6& k) {
   const Matrix6 scatter = scatter_of(m);
   const Vector5 constant = scatter.topRightCorner<5, 1>();
   const Matrix5 reduced = scatter.topLeftCorner<5, 5>() - constant * constant.transpose();
-  Cholesky<5> cholesky;
+  math::Cholesky<5> cholesky;
   if (!cholesky.factor(gradient_scatter(m))) {
     return false;
   }
@@ -194,7 +194,7 @@ bool fit_taubin(const Moments& m, Vector6& k) {
   for (int i = 0; i < 5; ++i) {
     symmetric.col(i) = cholesky.forward(half.row(i).transpose());
   }
-  const SymmetricEigen<5> eigen(0.5 * (symmetric + symmetric.transpose()));
+  const math::SymmetricEigen<5> eigen(0.5 * (symmetric + symmetric.transpose()));
   k.head<5>() = cholesky.backward(eigen.vector_of_least()).normalized();
   k(5) = -constant.dot(k.head<5>());
   return true;
@@ -238,7 +238,7 @@ bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part
         normal(i, j) += w_sum * k(i) * k(j);
       }
     }
-    Cholesky<6> cholesky;
+    math::Cholesky<6> cholesky;
     if (!cholesky.factor(normal)) {
       return false;
     }

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/pose/cholesky.h"
+#include "core/math/cholesky.h"
 #include "core/pose/three_point.h"
 
 namespace tubesight::core::pose {
@@ -56,7 +56,7 @@ double minimise(const Quadrangle& q, Eigen::Vector4d& lengths) {
     errors_of(q, lengths, F, J);
     Eigen::Matrix4d normal = J.transpose().lazyProduct(J);
     normal.diagonal() *= 1.0 + damping;
-    Cholesky<4> cholesky;
+    math::Cholesky<4> cholesky;
     if (!cholesky.factor(normal, 1e-16)) {
       damping *= 10.0;
       continue;

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/rotation.h"
+#include "core/math/cholesky.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -100,7 +100,7 @@ void build(const Problem& problem, const State& state, Matrix7& normal, Vector7&
 
 State moved(const State& state, const Vector7& step) {
   State next;
-  next.T = {exp_rotation(step.segment<3>(3)) * state.T.rotation(),
+  next.T = {math::exp_rotation(step.segment<3>(3)) * state.T.rotation(),
             state.T.translation_mm() + step.head<3>()};
   next.log_focal = state.log_focal + step(kFocal);
   return next;
@@ -123,7 +123,7 @@ bool descend(const Problem& problem, State& state, std::int32_t& steps) {
     for (int attempt = 0; attempt < 12 && !better; ++attempt) {
       Matrix7 damped = normal;
       damped.diagonal() *= 1.0 + damping;
-      Cholesky<7> cholesky;
+      math::Cholesky<7> cholesky;
       if (cholesky.factor(damped, 1e-15)) {
         const Vector7 step = -cholesky.solve(moment);
         const State next = moved(state, step);
@@ -164,16 +164,16 @@ bool fill(const Problem& problem, const State& state, NPointPose& pose) {
   Matrix7 normal;
   Vector7 moment;
   build(problem, state, normal, moment);
-  Cholesky<7> cholesky;
+  math::Cholesky<7> cholesky;
   if (!cholesky.factor(normal, 1e-12)) {
     return false;
   }
   const Matrix7 inverse = cholesky.inverse();
   const Eigen::Vector3d arm = state.T.rotation() * problem.middle_mm;
   // t = t' - R middle, so tau = tau' - theta x (R middle) = tau' + [R middle]x theta.
-  Matrix6d to_origin = Matrix6d::Identity();
-  to_origin.topRightCorner<3, 3>() = skew(arm);
-  const Matrix6d local = inverse.topLeftCorner<6, 6>();
+  math::Matrix6d to_origin = math::Matrix6d::Identity();
+  to_origin.topRightCorner<3, 3>() = math::skew(arm);
+  const math::Matrix6d local = inverse.topLeftCorner<6, 6>();
   pose.covariance.noalias() =
       to_origin.lazyProduct(local).eval().lazyProduct(to_origin.transpose());
   pose.T_camera_sheet = {state.T.rotation(), state.T.translation_mm() - arm};
@@ -207,7 +207,7 @@ PointProjection project_point(const CameraSheet& T, const Eigen::Vector3d& point
   Eigen::Matrix<double, 2, 3> by_point;
   by_point << inverse, 0.0, -result.plane.x() * inverse, 0.0, inverse, -result.plane.y() * inverse;
   result.by_pose.leftCols<3>() = by_point;
-  result.by_pose.rightCols<3>() = -by_point * skew(turned);
+  result.by_pose.rightCols<3>() = -by_point * math::skew(turned);
   return result;
 }
 

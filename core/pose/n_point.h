@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/transform.h"
-#include "core/pose/matrix.h"
+#include "core/math/matrix.h"
 #include "core/pose/point_pair.h"
 
 namespace tubesight::core::pose {
@@ -26,7 +26,7 @@ struct NPointPose {
   Transform<frames::Camera, frames::Sheet> T_camera_sheet;
   /// Of (tau, theta), camera frame: the true pose is (exp([theta]x) R, t + tau). By the pairs'
   /// sigma, not scaled by the residuals.
-  Matrix6d covariance = Matrix6d::Zero();
+  math::Matrix6d covariance = math::Matrix6d::Zero();
   double focal_length_ratio = 1.0;  ///< EFL found over EFL given
   double focal_length_sigma = 0.0;  ///< of that ratio
   double chi_square = 0.0;          ///< weighted squares of the residuals, robust weights applied

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/rotation.h"
+#include "core/math/cholesky.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -43,7 +43,7 @@ Eigen::Matrix3d rotation_to(const Eigen::Vector2d& v) {
   }
   const double length = std::sqrt(length2);
   const double angle = std::atan(length);
-  return exp_rotation(Eigen::Vector3d(-v.y(), v.x(), 0.0) * (angle / length));
+  return math::exp_rotation(Eigen::Vector3d(-v.y(), v.x(), 0.0) * (angle / length));
 }
 
 // Both rotations whose first-order projection at the origin is v + J q [Collins2014 eq. 9-17].
@@ -71,7 +71,7 @@ std::array<Eigen::Matrix3d, 2> rotations_of(const Eigen::Matrix2d& J, const Eige
     local.topLeftCorner<2, 2>() = upper;
     local.bottomLeftCorner<1, 2>() = row.transpose();
     local.col(2) = local.col(0).cross(local.col(1));
-    result[static_cast<std::size_t>(i)] = orthonormal(R_v * local);
+    result[static_cast<std::size_t>(i)] = math::orthonormal(R_v * local);
   }
   return result;
 }
@@ -115,7 +115,7 @@ Result<Homography> fit_homography(std::span<const PointPair> pairs) {
       }
     }
   }
-  Cholesky<8> cholesky;
+  math::Cholesky<8> cholesky;
   if (!cholesky.factor(normal, 1e-11)) {
     return Unexpected(Error::kIllConditioned);
   }
@@ -140,7 +140,7 @@ Result<Eigen::Vector3d> translation_for(const Eigen::Matrix3d& R_camera_sheet,
     normal += row_x * row_x.transpose() + row_y * row_y.transpose();
     moment -= row_x * row_x.dot(turned) + row_y * row_y.dot(turned);
   }
-  Cholesky<3> cholesky;
+  math::Cholesky<3> cholesky;
   if (!cholesky.factor(normal)) {
     return Unexpected(Error::kIllConditioned);
   }

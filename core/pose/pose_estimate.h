@@ -5,8 +5,8 @@
 
 #include "core/base/static_vector.h"
 #include "core/base/transform.h"
+#include "core/math/matrix.h"
 #include "core/pose/center_fit.h"
-#include "core/pose/matrix.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/pose_method.h"
 #include "core/pose/pose_model.h"
@@ -44,7 +44,7 @@ struct PoseEstimate {
   Transform<frames::Sheet, frames::Tool> T_sheet_tool;
   /// Of T_sheet_tool: x, y, z in mm and a rotation vector in rad, both in the sheet frame:
   /// R_true = exp([theta]x) R_sheet_tool. From the picture alone.
-  Matrix6d covariance = Matrix6d::Zero();
+  math::Matrix6d covariance = math::Matrix6d::Zero();
   double rms_px = 0.0;           ///< of the used rim points across the edge
   double edge_offset_px = 0.0;   ///< common to all rims, outwards (blooming makes it negative)
   double point_scale = 1.0;      ///< the points' deviation as found, in units of their sigma_px

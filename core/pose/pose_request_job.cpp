@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/pose/angle_covariance.h"
-#include "core/pose/rotation.h"
+#include "core/math/angle_covariance.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -40,9 +40,10 @@ PoseResult make_pose_result(const PictureOutcome& outcome) {
     return result;
   }
   const PoseEstimate& pose = outcome.pose.estimate;
-  const auto angles = angles_of(pose.T_sheet_tool.rotation());
+  const auto angles = math::angles_of(pose.T_sheet_tool.rotation());
   const Eigen::Vector3d angle_sigmas =
-      angle_covariance(pose.T_sheet_tool.rotation(), pose.covariance.bottomRightCorner<3, 3>())
+      math::angle_covariance(pose.T_sheet_tool.rotation(),
+                             pose.covariance.bottomRightCorner<3, 3>())
           .diagonal()
           .cwiseMax(0.0)
           .cwiseSqrt();

@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "core/math/symmetric_eigen.h"
 #include "core/pose/bitangent.h"
-#include "core/pose/symmetric_eigen.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -158,7 +158,7 @@ Eigen::Vector2d eccentricity(const CameraSheet& T_camera_sheet, const Eigen::Vec
 std::array<Eigen::Vector3d, 2> circle_normals(const Conic& conic) {
   // C - l2 I, l2 the middle eigenvalue, is the pair of planes through the projection point that cut
   // circles out of the cone.
-  const SymmetricEigen<3> eigen(conic);
+  const math::SymmetricEigen<3> eigen(conic);
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return eigen.values(a) > eigen.values(b); });

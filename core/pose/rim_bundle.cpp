@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -123,7 +123,7 @@ void begin_fit(const PoseModel& model, const RimList& rims, const RimBundleOptio
 void finish_fit(const RimProblem& problem, std::span<const RimState> rims,
                 const SharedMatrix& covariance, const PlanePointBuffer& points, RimFit& result) {
   result.solved = true;
-  result.T_sheet_tool = {orthonormal(problem.R_sheet_tool), problem.tip_mm};
+  result.T_sheet_tool = {math::orthonormal(problem.R_sheet_tool), problem.tip_mm};
   result.covariance = covariance.topLeftCorner<6, 6>();
   result.edge_offset_px = problem.offset_px;
   result.point_scale = std::sqrt(problem.scale2);

@@ -5,7 +5,7 @@
 
 #include "core/base/sighting.h"
 #include "core/base/transform.h"
-#include "core/pose/matrix.h"
+#include "core/math/matrix.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/pose_model.h"
 #include "core/pose/rim.h"
@@ -24,7 +24,7 @@ struct RimBundleWorkspace {
 struct RimFit {
   bool solved = false;
   Transform<frames::Sheet, frames::Tool> T_sheet_tool;
-  Matrix6d covariance = Matrix6d::Zero();
+  math::Matrix6d covariance = math::Matrix6d::Zero();
   double edge_offset_px = 0.0;
   double rms_px = 0.0;
   double point_scale = 1.0;

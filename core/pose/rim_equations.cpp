@@ -6,8 +6,8 @@
 
 #include <Eigen/LU>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/rotation.h"
+#include "core/math/cholesky.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -234,7 +234,7 @@ RimStep solve_step(RimProblem& problem, std::span<RimState> rims, int rounds) {
   RimStep step;
   for (int round = 0;; ++round) {
     const Shared shared = shared_equations(problem, rims);
-    Cholesky<7> cholesky;
+    math::Cholesky<7> cholesky;
     if (!cholesky.factor(shared.normal, 1e-12)) {
       step.solved = false;
       return step;
@@ -260,7 +260,7 @@ void apply_step(RimProblem& problem, std::span<RimState> rims, const SharedVecto
     }
   }
   problem.tip_mm += change.head<3>();
-  problem.R_sheet_tool = exp_rotation(change.segment<3>(kTheta)) * problem.R_sheet_tool;
+  problem.R_sheet_tool = math::exp_rotation(change.segment<3>(kTheta)) * problem.R_sheet_tool;
   problem.offset_px += change(kOffset);
 }
 

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/pose/polynomial.h"
+#include "core/math/polynomial.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -56,7 +56,7 @@ bool polish(const Triangle& triangle, RayLengths& x) {
 }
 
 // The quartic in v = x_2 / x_0 [Haralick1991 eq. 9], a, b, c being the sides 12, 02, 01.
-Quartic quartic_of(const Triangle& t) {
+math::Quartic quartic_of(const Triangle& t) {
   const double a2 = t.side2[2] / t.side2[1];
   const double c2 = t.side2[0] / t.side2[1];
   const double q = a2 - c2;
@@ -97,7 +97,7 @@ FixedList<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 3>&
   }
   FixedList<RayLengths, 4> solutions;
   // Lengths differ a thousandfold at most for anything a camera sees.
-  for (const double v : real_roots(quartic_of(triangle), 1e-3, 1e3)) {
+  for (const double v : math::real_roots(quartic_of(triangle), 1e-3, 1e3)) {
     const double span2 = 1.0 + v * v - 2.0 * v * triangle.cosine[1];
     const double x0 = std::sqrt(triangle.side2[1] / span2);
     // x_1 from its law of cosines with x_0; of the two the third law keeps the right one.

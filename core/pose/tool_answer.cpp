@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 
@@ -12,16 +12,16 @@ Transform<frames::Sheet, frames::Tool> tool_pose(
   return T_camera_sheet.inverse() * T_camera_tool;
 }
 
-Matrix6d tool_covariance(const Matrix6d& camera_covariance,
-                         const Transform<frames::Camera, frames::Sheet>& T_camera_sheet,
-                         const Transform<frames::Camera, frames::Tool>& T_camera_tool) {
+math::Matrix6d tool_covariance(const math::Matrix6d& camera_covariance,
+                               const Transform<frames::Camera, frames::Sheet>& T_camera_sheet,
+                               const Transform<frames::Camera, frames::Tool>& T_camera_tool) {
   const Eigen::Matrix3d back = -T_camera_sheet.rotation().transpose();
   const Eigen::Vector3d arm = T_camera_tool.translation_mm() - T_camera_sheet.translation_mm();
-  Matrix6d J = Matrix6d::Zero();
+  math::Matrix6d J = math::Matrix6d::Zero();
   J.topLeftCorner<3, 3>() = back;
-  J.topRightCorner<3, 3>() = -back * skew(arm);
+  J.topRightCorner<3, 3>() = -back * math::skew(arm);
   J.bottomRightCorner<3, 3>() = back;
-  const Matrix6d half = J.lazyProduct(camera_covariance);
+  const math::Matrix6d half = J.lazyProduct(camera_covariance);
   return half.lazyProduct(J.transpose());
 }
 

@@ -2,7 +2,7 @@
 
 #include "core/base/transform.h"
 #include "core/base/tube_address.h"
-#include "core/pose/matrix.h"
+#include "core/math/matrix.h"
 #include "core/pose/pose_model.h"
 
 namespace tubesight::core::pose {
@@ -16,8 +16,8 @@ namespace tubesight::core::pose {
 /// T_camera_sheet (perturbed on the left in the camera frame), the tool's calibration taken as
 /// exact: delta p = -R^T (tau + theta x (t_camera_tool - t_camera_sheet)), delta theta = -R^T
 /// theta.
-[[nodiscard]] Matrix6d tool_covariance(
-    const Matrix6d& camera_covariance,
+[[nodiscard]] math::Matrix6d tool_covariance(
+    const math::Matrix6d& camera_covariance,
     const Transform<frames::Camera, frames::Sheet>& T_camera_sheet,
     const Transform<frames::Camera, frames::Tool>& T_camera_tool);
 

@@ -4,18 +4,18 @@
 
 #include <Eigen/Geometry>
 
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 #include "core/pose/tool_answer.h"
 
 namespace tubesight::core::verification {
 namespace {
 
-using pose::exp_rotation;
-using pose::log_rotation;
-using pose::Matrix6d;
+using math::exp_rotation;
+using math::log_rotation;
+using math::Matrix6d;
+using math::skew;
 using pose::offset_from;
 using pose::PoseModel;
-using pose::skew;
 using pose::TubeOffset;
 
 using SheetTool = Transform<frames::Sheet, frames::Tool>;

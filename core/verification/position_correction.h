@@ -4,7 +4,7 @@
 
 #include "core/base/transform.h"
 #include "core/base/tube_address.h"
-#include "core/pose/matrix.h"
+#include "core/math/matrix.h"
 #include "core/pose/pose_model.h"
 
 namespace tubesight::core::verification {
@@ -52,11 +52,11 @@ struct PositionCorrection {
 /// errors left are those of the pose at the moved tip: tau + theta x (R t_move).
 [[nodiscard]] PositionCorrection correct_position(
     const pose::PoseModel& model, const Transform<frames::Sheet, frames::Tool>& T_sheet_tool,
-    const pose::Matrix6d& covariance, const CorrectionRequest& request);
+    const math::Matrix6d& covariance, const CorrectionRequest& request);
 
 /// The covariance of the point where the axis meets the sheet: delta a = M (tau + l theta x n) with
 /// n the axis, l = -z / n_z its length to the sheet and M = I - n e_z^T / n_z.
 [[nodiscard]] Eigen::Matrix2d axis_covariance(
-    const Transform<frames::Sheet, frames::Tool>& T_sheet_tool, const pose::Matrix6d& covariance);
+    const Transform<frames::Sheet, frames::Tool>& T_sheet_tool, const math::Matrix6d& covariance);
 
 }  // namespace tubesight::core::verification

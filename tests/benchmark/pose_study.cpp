@@ -156,8 +156,8 @@ void print_sensitivity(StudyScene& scene, double height_mm, Panel& panel) {
                 false};
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i % 6);
-    const core::pose::Vector6d slope = i < 6 ? by_camera->col(column) : by_tool.col(column);
-    const core::pose::Vector6d error = slope * changes[i];
+    const core::math::Vector6d slope = i < 6 ? by_camera->col(column) : by_tool.col(column);
+    const core::math::Vector6d error = slope * changes[i];
     std::printf("| %.0f | %s | %g %s | %.4f | %.4f | %.4f | %.4f |\n", height_mm, names[i],
                 changes[i], units[i], error.head<2>().norm(), std::abs(error(2)),
                 error.segment<2>(3).norm() * 57.29577951308232,

@@ -114,7 +114,7 @@ void print_row(StudyScene& scene, const char* name, PointMethod method, double n
     ++solved;
     PoseEstimate estimate;
     estimate.T_sheet_tool = tool_pose(*pose, scene.model().T_camera_tool);
-    const Vector6d error = error_of(estimate, where);
+    const core::math::Vector6d error = error_of(estimate, where);
     lateral2 += error.head<2>().squaredNorm();
     worst = std::max(worst, error.head<2>().norm());
     height2 += error(2) * error(2);

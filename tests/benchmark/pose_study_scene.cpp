@@ -5,11 +5,11 @@
 
 #include <Eigen/LU>
 
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 namespace tubesight::benchmark {
 
-using core::pose::Vector6d;
+using core::math::Vector6d;
 
 StudyScene::StudyScene()
     : settings_(std::make_unique<core::SessionSettings>()),
@@ -63,7 +63,7 @@ TrialResult StudyScene::run(const Trial& trial, int poses) {
     }
     ++result.poses;
     const Vector6d error = error_of(outcome.estimate, where);
-    const core::pose::Matrix6d& covariance = outcome.estimate.covariance;
+    const core::math::Matrix6d& covariance = outcome.estimate.covariance;
     result.tubes += outcome.estimate.tubes;
     result.lateral_mm += error.head<2>().squaredNorm();
     result.worst_mm = std::max(result.worst_mm, error.head<2>().norm());
@@ -88,7 +88,7 @@ Vector6d error_of(const core::pose::PoseEstimate& estimate, const tests::ToolPla
   Vector6d error;
   error.head<3>() = Eigen::Vector3d(place.x_mm, place.y_mm, -place.height_mm) -
                     estimate.T_sheet_tool.translation_mm();
-  error.tail<3>() = core::pose::log_rotation(R * estimate.T_sheet_tool.rotation().transpose());
+  error.tail<3>() = core::math::log_rotation(R * estimate.T_sheet_tool.rotation().transpose());
   return error;
 }
 

@@ -61,7 +61,7 @@ class StudyScene {
 };
 
 /// (tau, theta) from an estimate to the true pose.
-[[nodiscard]] core::pose::Vector6d error_of(const core::pose::PoseEstimate& estimate,
+[[nodiscard]] core::math::Vector6d error_of(const core::pose::PoseEstimate& estimate,
                                             const tests::ToolPlace& place);
 
 }  // namespace tubesight::benchmark

@@ -17,24 +17,26 @@ from source_text import code_only, report, sources
 
 BASE = ["core/base"]
 TRACKING = BASE + ["core/camera", "core/tubesheet", "core/edges"]
-POSE = TRACKING
+MATH = ["core/math"]
+POSE = TRACKING + MATH
 
 # Folder: the folders of ours it may include beside itself.
 MAY_INCLUDE = {
     "core/base": [],
+    "core/math": BASE,
     "hal": BASE,
     "core/camera": BASE,
     "core/tubesheet": BASE,
     "core/edges": BASE,
     "core/tracking": TRACKING,
     "core/pose": POSE,
-    "core/kinematics": BASE,
+    "core/kinematics": BASE + MATH,
     "core/calibration": POSE + ["core/pose", "core/kinematics"],
     "core/lighting": BASE + ["core/edges"],
-    "core/verification": BASE + ["core/tubesheet", "core/tracking", "core/pose"],
+    "core/verification": BASE + MATH + ["core/tubesheet", "core/tracking", "core/pose"],
     "core/overlay": BASE + ["core/camera", "core/tubesheet"],
-    "core/rendering": BASE + ["core/camera", "core/tubesheet", "core/kinematics"],
-    "core/session": TRACKING + ["core/tracking", "core/pose", "core/calibration",
+    "core/rendering": BASE + MATH + ["core/camera", "core/tubesheet", "core/kinematics"],
+    "core/session": TRACKING + MATH + ["core/tracking", "core/pose", "core/calibration",
                                 "core/kinematics", "core/lighting", "core/verification",
                                 "core/overlay"],
     "drivers/files": BASE + ["hal"],
@@ -52,7 +54,7 @@ BOX = "board/box"
 CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
     cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
     tuple type_traits utility variant version""".split())
-EIGEN_FOLDERS = ("core/base", "core/pose", "core/calibration", "core/kinematics",
+EIGEN_FOLDERS = ("core/base", "core/math", "core/pose", "core/calibration", "core/kinematics",
                  "core/rendering", "core/verification")
 
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable

@@ -8,7 +8,7 @@
 namespace tubesight::board {
 namespace {
 
-using core::pose::Matrix6d;
+using core::math::Matrix6d;
 using core::pose::PoseEstimate;
 
 /// Under tube (20, 30): turned by 90 degrees about z, which moves the tool's x axis to y.

@@ -39,19 +39,19 @@ TEST(ToolCovariance, CarriesSmallErrorsOver) {
   const Transform<frames::Camera, frames::Tool> T_camera_tool(
       rotation_from_degrees({0.0, -1.0, 48.0}), Eigen::Vector3d(-3.0, 31.0, 112.0));
   const SheetTool before = tool_pose(T_camera_sheet, T_camera_tool);
-  Matrix6d J;
+  math::Matrix6d J;
   for (int i = 0; i < 6; ++i) {
-    Vector6d step = Vector6d::Zero();
+    math::Vector6d step = math::Vector6d::Zero();
     step(i) = 1e-6;
     const Transform<frames::Camera, frames::Sheet> moved(
-        exp_rotation(step.tail<3>()) * T_camera_sheet.rotation(),
+        math::exp_rotation(step.tail<3>()) * T_camera_sheet.rotation(),
         T_camera_sheet.translation_mm() + step.head<3>());
     J.col(i) = pose_error(before, tool_pose(moved, T_camera_tool)) / 1e-6;
   }
-  Matrix6d covariance = Matrix6d::Identity();
+  math::Matrix6d covariance = math::Matrix6d::Identity();
   covariance(0, 4) = covariance(4, 0) = 0.3;
 
-  const Matrix6d carried = tool_covariance(covariance, T_camera_sheet, T_camera_tool);
+  const math::Matrix6d carried = tool_covariance(covariance, T_camera_sheet, T_camera_tool);
 
   EXPECT_LT((carried - J * covariance * J.transpose()).norm(), 1e-3 * carried.norm());
 }
@@ -75,14 +75,14 @@ TEST(ToolSensitivity, IsThatOfTheToolsNumbers) {
   estimate.T_camera_sheet = scene.model.T_camera_tool * leaning_tool().inverse();
   estimate.T_sheet_tool = leaning_tool();
 
-  const Matrix6d J = tool_sensitivity(scene.model, estimate);
+  const math::Matrix6d J = tool_sensitivity(scene.model, estimate);
 
   const ToolSettings& tool = scene.settings().tool;
   for (std::size_t i = 0; i < 6; ++i) {
     ToolSettings changed = tool;
     (i < 3 ? changed.position_mm[i] : changed.rotation_deg[i - 3]) += 1e-6;
     const SheetTool moved = tool_pose(estimate.T_camera_sheet, tool_transform(changed));
-    const Vector6d difference = pose_error(leaning_tool(), moved) / 1e-6;
+    const math::Vector6d difference = pose_error(leaning_tool(), moved) / 1e-6;
     EXPECT_LT((difference - J.col(static_cast<Eigen::Index>(i))).norm(), 1e-6) << i;
   }
 }
@@ -106,7 +106,7 @@ TEST(CalibrationCovariance, MatchesTheErrorThatAWrongCameraMakes) {
   ASSERT_TRUE(wrong.has_value());
   const PoseOutcome off = estimate_pose(*wrong, *scene.rims, {}, *scene.workspace);
   ASSERT_TRUE(off.has_value());
-  const Vector6d error = pose_error(right.estimate.T_sheet_tool, off.estimate.T_sheet_tool);
+  const math::Vector6d error = pose_error(right.estimate.T_sheet_tool, off.estimate.T_sheet_tool);
   EXPECT_GT(error.head<3>().norm(), 0.05);
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(std::sqrt((*share)(i, i)), std::abs(error(i)), 0.02 * error.head<3>().norm()) << i;

@@ -37,7 +37,7 @@ TEST(PictureStatistics, ManyPosesHaveTheErrorsThatTheirCovarianceTells) {
     *outcome =
         estimate_from_picture(still.averaged(), still.model, *still.map, starts, {}, *workspace);
     ASSERT_TRUE(outcome->has_value()) << i;
-    const Vector6d error = pose_error(outcome->pose.estimate.T_sheet_tool, true_pose(place));
+    const math::Vector6d error = pose_error(outcome->pose.estimate.T_sheet_tool, true_pose(place));
     const double square = error.dot(outcome->pose.estimate.covariance.inverse() * error);
     EXPECT_LT(square, 22.5) << i;  // 99.9 % of six squares
     sum += square;

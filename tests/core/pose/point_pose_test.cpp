@@ -6,10 +6,10 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/math/rotation.h"
 #include "core/pose/four_point.h"
 #include "core/pose/n_point.h"
 #include "core/pose/planar_pose.h"
-#include "core/pose/rotation.h"
 #include "core/pose/three_point.h"
 #include "tests/support/synthetic_rims.h"
 
@@ -197,7 +197,7 @@ TEST(ProjectPoint, HasTheDerivativesOfCentralDifferences) {
     Eigen::Matrix<double, 6, 1> step = Eigen::Matrix<double, 6, 1>::Zero();
     step(i) = h;
     const auto at = [&](double sign) {
-      const CameraSheet moved(exp_rotation(sign * step.tail<3>()) * T.rotation(),
+      const CameraSheet moved(math::exp_rotation(sign * step.tail<3>()) * T.rotation(),
                               T.translation_mm() + sign * step.head<3>());
       return project_point(moved, point).plane;
     };
@@ -210,7 +210,7 @@ TEST(SolveNPoint, ConvergesFromFarOffOnAnyShape) {
   const std::vector<Eigen::Vector3d> object = {{0, 0, 0},   {30, 0, 5},   {0, 40, -10},
                                                {20, 25, 9}, {-30, 10, 3}, {-10, -35, -6}};
   const std::vector<PointPair> pairs = pairs_of(leaning(), object);
-  const CameraSheet start(exp_rotation({0.3, -0.2, 0.25}) * leaning().rotation(),
+  const CameraSheet start(math::exp_rotation({0.3, -0.2, 0.25}) * leaning().rotation(),
                           leaning().translation_mm() + Eigen::Vector3d(15.0, -20.0, 40.0));
 
   const auto pose = solve_n_point(pairs, start, {});
@@ -268,10 +268,10 @@ TEST(SolveNPoint, TellsTheScatterOfItsPoses) {
     const auto pairs = pairs_of(leaning(), lattice(1), 2e-4, static_cast<std::uint64_t>(round + 1));
     const auto pose = solve_n_point(pairs, leaning(), {});
     ASSERT_TRUE(pose.has_value());
-    Vector6d error;
+    math::Vector6d error;
     error.head<3>() = leaning().translation_mm() - pose->T_camera_sheet.translation_mm();
     error.tail<3>() =
-        log_rotation(leaning().rotation() * pose->T_camera_sheet.rotation().transpose());
+        math::log_rotation(leaning().rotation() * pose->T_camera_sheet.rotation().transpose());
     sum += error.dot(pose->covariance.inverse() * error) / kRounds;
   }
   EXPECT_NEAR(sum, 6.0, 4.0 * std::sqrt(12.0 / kRounds));

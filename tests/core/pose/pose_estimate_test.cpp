@@ -16,7 +16,7 @@ constexpr std::array<PoseMethod, 5> kMethods = {
     PoseMethod::kRims, PoseMethod::kCenters, PoseMethod::kTangentPoints, PoseMethod::kTangentLines,
     PoseMethod::kEllipseCenters};
 
-Vector6d error_of(const PoseOutcome& outcome, const tests::ToolPlace& place = kPlace) {
+math::Vector6d error_of(const PoseOutcome& outcome, const tests::ToolPlace& place = kPlace) {
   return pose_error(outcome.estimate.T_sheet_tool, true_pose(place));
 }
 
@@ -185,7 +185,7 @@ TEST(EstimatePose, FindsThePoseFromAnyThreeTubesThatSpanATriangle) {
     EXPECT_TRUE(outcome.has_value()) << i << ": refused, " << static_cast<int>(outcome.refusal)
                                      << " (" << a.row << ", " << a.column << ") (" << b.row << ", "
                                      << b.column << ") (" << c.row << ", " << c.column << ')';
-    const Vector6d error = pose_error(outcome.estimate.T_sheet_tool, true_pose(kPlace));
+    const math::Vector6d error = pose_error(outcome.estimate.T_sheet_tool, true_pose(kPlace));
     EXPECT_LT(error.head<3>().norm(), 1.0) << i;
   }
   EXPECT_GT(tried, 100);

@@ -38,8 +38,8 @@ Consistency consistency_of(const tests::RimLook& look, const RimBundleOptions& r
     if (!outcome.has_value()) {
       continue;
     }
-    const Vector6d error = pose_error(outcome.estimate.T_sheet_tool, true_pose(place));
-    const Matrix6d& covariance = outcome.estimate.covariance;
+    const math::Vector6d error = pose_error(outcome.estimate.T_sheet_tool, true_pose(place));
+    const math::Matrix6d& covariance = outcome.estimate.covariance;
     const double square = error.dot(covariance.inverse() * error);
     result.mean += square;
     for (std::size_t k = 0; k < kQuantiles.size(); ++k) {

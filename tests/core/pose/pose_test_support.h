@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/math/rotation.h"
 #include "core/pose/pose_estimate.h"
-#include "core/pose/rotation.h"
 #include "tests/support/synthetic_rims.h"
 
 namespace tubesight::core::pose {
@@ -19,11 +19,11 @@ inline Transform<frames::Sheet, frames::Tool> true_pose(const tests::ToolPlace& 
 }
 
 /// (tau, theta) from an estimate to the truth, sheet frame: what the covariance is of.
-inline Vector6d pose_error(const Transform<frames::Sheet, frames::Tool>& estimate,
-                           const Transform<frames::Sheet, frames::Tool>& truth) {
-  Vector6d error;
+inline math::Vector6d pose_error(const Transform<frames::Sheet, frames::Tool>& estimate,
+                                 const Transform<frames::Sheet, frames::Tool>& truth) {
+  math::Vector6d error;
   error.head<3>() = truth.translation_mm() - estimate.translation_mm();
-  error.tail<3>() = log_rotation(truth.rotation() * estimate.rotation().transpose());
+  error.tail<3>() = math::log_rotation(truth.rotation() * estimate.rotation().transpose());
   return error;
 }
 

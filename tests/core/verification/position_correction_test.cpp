@@ -10,7 +10,7 @@
 namespace tubesight::core::verification {
 namespace {
 
-using pose::Matrix6d;
+using math::Matrix6d;
 using pose::offset_from;
 using pose::PoseModel;
 using pose::TubeOffset;

@@ -1,9 +1,9 @@
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   Eigen::Matrix3d result;
@@ -49,4 +49,4 @@ std::array<double, 3> angles_of(const Eigen::Matrix3d& R) {
   return {std::atan2(R(1, 0), R(0, 0)), beta, std::atan2(R(2, 1), R(2, 2))};
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

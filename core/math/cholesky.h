@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 /// The factor of a small symmetric positive definite matrix, without Eigen's blocked solvers, which
 /// refer to malloc from eight rows on.
@@ -72,4 +72,4 @@ class Cholesky {
   Matrix factor_ = Matrix::Zero();
 };
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

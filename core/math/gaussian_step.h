@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 /// A step blurred by a Gaussian of unit sigma: its share of the rise, and the slope there.
 struct GaussianStep {
@@ -86,4 +86,4 @@ class GaussianTable {
   return kTable.at(x);
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

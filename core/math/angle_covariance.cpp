@@ -1,12 +1,12 @@
-#include "core/pose/angle_covariance.h"
+#include "core/math/angle_covariance.h"
 
 #include <cmath>
 
 #include <Eigen/LU>
 
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 Eigen::Matrix3d angle_covariance(const Eigen::Matrix3d& rotation,
                                  const Eigen::Matrix3d& vector_covariance) {
@@ -21,4 +21,4 @@ Eigen::Matrix3d angle_covariance(const Eigen::Matrix3d& rotation,
   return inverse * vector_covariance * inverse.transpose();
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 /// The matrix of the vector product: skew(a) b = a x b.
 [[nodiscard]] Eigen::Matrix3d skew(const Eigen::Vector3d& a);
@@ -24,4 +24,4 @@ namespace tubesight::core::pose {
 /// beta = +-90 degrees, where only their sum or difference shows, gamma is 0.
 [[nodiscard]] std::array<double, 3> angles_of(const Eigen::Matrix3d& rotation);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

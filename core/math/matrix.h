@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -1,8 +1,8 @@
-#include "core/pose/polynomial.h"
+#include "core/math/polynomial.h"
 
 #include <cmath>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 namespace {
 
 using Roots = StaticVector<double, 8>;
@@ -85,4 +85,4 @@ Roots real_roots(const Quartic& coefficients, double least, double most) {
   return roots;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -1,11 +1,11 @@
-#include "core/pose/gaussian_step.h"
+#include "core/math/gaussian_step.h"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 namespace {
 
 TEST(GaussianStepAt, IsWhatLibmSays) {
@@ -33,4 +33,4 @@ TEST(GaussianStepAt, EndsAtNothingAndAll) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -1,4 +1,4 @@
-#include "core/pose/rotation.h"
+#include "core/math/rotation.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "core/base/transform.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
@@ -64,4 +64,4 @@ TEST(Orthonormal, MendsAColumnThatDriftedOff) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

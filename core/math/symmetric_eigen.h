@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 /// Eigenvalues and eigenvectors of a small symmetric matrix by Jacobi's rotations [Golub2013
 /// sec. 8.5]. Eigen's own solver refers to malloc from five rows on.
@@ -70,4 +70,4 @@ struct SymmetricEigen {
   }
 };
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

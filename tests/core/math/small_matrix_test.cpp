@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "core/pose/cholesky.h"
-#include "core/pose/symmetric_eigen.h"
+#include "core/math/cholesky.h"
+#include "core/math/symmetric_eigen.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 namespace {
 
 TEST(CholeskyFactor, SolvesAndInvertsByHand) {
@@ -48,4 +48,4 @@ TEST(SymmetricEigenvalues, AreThoseOfAMatrixMadeFromThem) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -1,8 +1,8 @@
-#include "core/pose/polynomial.h"
+#include "core/math/polynomial.h"
 
 #include <gtest/gtest.h>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 namespace {
 
 TEST(RealRoots, FindsFourOfAQuartic) {
@@ -46,4 +46,4 @@ TEST(RealRoots, SolvesLowerDegrees) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math

@@ -5,7 +5,7 @@
 
 #include "core/base/static_vector.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::math {
 
 /// Coefficients of a polynomial of the fourth degree or less, that of x^0 first.
 using Quartic = std::array<double, 5>;
@@ -18,4 +18,4 @@ using Quartic = std::array<double, 5>;
 [[nodiscard]] StaticVector<double, 8> real_roots(const Quartic& coefficients, double least,
                                                  double most);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::math
