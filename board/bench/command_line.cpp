@@ -68,10 +68,10 @@ const std::map<std::string, core::pose::PoseMethod> kPoseMethods = {
     {"ellipse-centers", core::pose::PoseMethod::kEllipseCenters},
 };
 
-const std::map<std::string, core::pose::EdgeMethod> kEdgeMethods = {
-    {"step", core::pose::EdgeMethod::kBlurredStep},
-    {"mid-level", core::pose::EdgeMethod::kMidLevel},
-    {"moment", core::pose::EdgeMethod::kMoment},
+const std::map<std::string, core::picture::EdgeMethod> kEdgeMethods = {
+    {"step", core::picture::EdgeMethod::kBlurredStep},
+    {"mid-level", core::picture::EdgeMethod::kMidLevel},
+    {"moment", core::picture::EdgeMethod::kMoment},
 };
 
 /// An option that takes one of the names of a table.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose/arc_edge.h"
+#include "core/picture/arc_edge.h"
 #include "core/pose/pose_estimate.h"
 #include "core/verification/position_correction.h"
 
@@ -24,7 +24,7 @@ struct PoseCommandOptions {
   std::string correct;  ///< "ROW,COLUMN"; empty: no correction asked for
   double limit_mm = core::verification::kProbeLimit_mm;  ///< of the insertion
   core::pose::PoseMethod method = core::pose::PoseMethod::kRims;
-  core::pose::EdgeMethod edge = core::pose::EdgeMethod::kBlurredStep;
+  core::picture::EdgeMethod edge = core::picture::EdgeMethod::kBlurredStep;
 };
 
 }  // namespace tubesight::board

@@ -7,7 +7,7 @@
 #include "core/overlay/overlay.h"
 #include "core/overlay/painter.h"
 #include "core/overlay/palette.h"
-#include "core/pose/sheet_view.h"
+#include "core/picture/sheet_view.h"
 #include "core/pose/tool_answer.h"
 
 namespace tubesight::board {
@@ -27,11 +27,11 @@ Rgb colour_of(const core::pose::PictureTube& tube) {
   if (tube.rim >= 0) {
     return tube.used ? palette::kUsed : palette::kRejected;
   }
-  return tube.finding == core::pose::RimFinding::kBright ? palette::kPlug
-                                                         : palette::kEstimateAbsent;
+  return tube.finding == core::picture::RimFinding::kBright ? palette::kPlug
+                                                            : palette::kEstimateAbsent;
 }
 
-void draw_circle(Painter& painter, const core::pose::SheetView& view,
+void draw_circle(Painter& painter, const core::picture::SheetView& view,
                  const Eigen::Vector2d& center_mm, double radius_mm, Rgb colour) {
   constexpr int kCorners = 180;
   bool drawing = false;
@@ -53,7 +53,7 @@ void draw_circle(Painter& painter, const core::pose::SheetView& view,
 
 core::RgbImageView draw_pose(const core::ImageView& still,
                              const core::pose::PictureOutcome& outcome,
-                             const core::pose::RimList& rims, const core::pose::PoseModel& model,
+                             const core::picture::RimList& rims, const core::pose::PoseModel& model,
                              bool has_tool, std::vector<std::uint8_t>& pixels) {
   pixels.assign(std::size_t{3} * static_cast<std::size_t>(still.width_px) *
                     static_cast<std::size_t>(still.height_px),
@@ -63,7 +63,7 @@ core::RgbImageView draw_pose(const core::ImageView& still,
   core::overlay::copy_grey(still, picture);
   Painter painter(picture);
   const core::pose::PoseEstimate& pose = outcome.pose.estimate;
-  const core::pose::SheetView view(model.camera, pose.T_camera_sheet);
+  const core::picture::SheetView view(model.camera, pose.T_camera_sheet);
   for (const core::pose::PictureTube& tube : outcome.tubes) {
     const double diameter_mm = tube.rim >= 0 && tube.rim < outcome.pose.rims.size() &&
                                        outcome.pose.rims[tube.rim].diameter_mm > 0.0
@@ -73,7 +73,7 @@ core::RgbImageView draw_pose(const core::ImageView& still,
   }
   for (const core::pose::PictureTube& tube : outcome.tubes) {
     if (tube.rim >= 0) {
-      for (const core::pose::RimPoint& point : rims[tube.rim].points) {
+      for (const core::picture::RimPoint& point : rims[tube.rim].points) {
         painter.pixel(nearest(point.u_px, point.v_px), palette::kWhite);
       }
       painter.cross_hair(nearest(tube.u_px, tube.v_px), 0, 3, 1, colour_of(tube));

@@ -15,7 +15,7 @@ namespace tubesight::board {
 /// the sheet (blue). `pixels` is replaced; the view is valid as long as it is.
 [[nodiscard]] core::RgbImageView draw_pose(const core::ImageView& still,
                                            const core::pose::PictureOutcome& outcome,
-                                           const core::pose::RimList& rims,
+                                           const core::picture::RimList& rims,
                                            const core::pose::PoseModel& model, bool has_tool,
                                            std::vector<std::uint8_t>& pixels);
 

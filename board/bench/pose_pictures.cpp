@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/pose/rest_check.h"
+#include "core/picture/rest_check.h"
 
 namespace tubesight::board {
 namespace {
@@ -25,18 +25,18 @@ StillAverager::StillAverager(const core::CameraSettings& camera)
 
 StillsRead StillAverager::read(std::span<const Still> stills) {
   StillsRead result;
-  core::pose::RestAverage average(sums_, camera_.width_px, camera_.height_px);
+  core::picture::RestAverage average(sums_, camera_.width_px, camera_.height_px);
   for (const Still& still : stills) {
     if (!add(still, average, result)) {
       return result;
     }
   }
-  const core::pose::RestOutcome rest = average.finish();
+  const core::picture::RestOutcome rest = average.finish();
   result.frame_shift_px = rest.frame_shift_px;
   result.field_shift_px = rest.field_shift_px;
   result.picture = rest.picture;
   if (!rest.rested) {
-    const bool fields = rest.field_shift_px > core::pose::kLargestFieldShift_px;
+    const bool fields = rest.field_shift_px > core::picture::kLargestFieldShift_px;
     result.status = ExitStatus::kJobFailed;
     result.message = stills.front().name() + ": the camera moved: the picture shifts by " +
                      in_pixels(fields ? rest.field_shift_px : rest.frame_shift_px) + " between " +
@@ -46,7 +46,8 @@ StillsRead StillAverager::read(std::span<const Still> stills) {
   return result;
 }
 
-bool StillAverager::add(const Still& still, core::pose::RestAverage& average, StillsRead& result) {
+bool StillAverager::add(const Still& still, core::picture::RestAverage& average,
+                        StillsRead& result) {
   const auto fail = [&](std::string message) {
     result.status = ExitStatus::kWrongInput;
     result.message = std::move(message);
@@ -67,7 +68,8 @@ bool StillAverager::add(const Still& still, core::pose::RestAverage& average, St
     const core::Parity lines = whole ? core::Parity::kProgressive : parity;
     if ((!whole || parity == core::Parity::kEven) &&
         !average.add(core::field_of(picture_.view(), lines))) {
-      return fail(still.name() + ": more than " + std::to_string(core::pose::kMaxAveragedFrames) +
+      return fail(still.name() + ": more than " +
+                  std::to_string(core::picture::kMaxAveragedFrames) +
                   " pictures, expected at most that many with --average");
     }
   }

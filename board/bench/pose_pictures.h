@@ -8,8 +8,8 @@
 #include "board/bench/exit_status.h"
 #include "board/bench/still_reader.h"
 #include "core/base/settings.h"
-#include "core/pose/averaged_picture.h"
-#include "core/pose/rest_average.h"
+#include "core/picture/averaged_picture.h"
+#include "core/picture/rest_average.h"
 #include "drivers/files/picture_reader.h"
 
 namespace tubesight::board {
@@ -17,10 +17,10 @@ namespace tubesight::board {
 /// What became of the stills of one pose.
 struct StillsRead {
   ExitStatus status = ExitStatus::kDone;  ///< kJobFailed: the camera moved
-  std::string message;                  ///< why not kDone, one line that begins with a file's name
-  core::pose::AveragedPicture picture;  ///< valid until the next call
-  double frame_shift_px = 0.0;          ///< largest between frames
-  double field_shift_px = 0.0;          ///< largest between the fields
+  std::string message;  ///< why not kDone, one line that begins with a file's name
+  core::picture::AveragedPicture picture;  ///< valid until the next call
+  double frame_shift_px = 0.0;             ///< largest between frames
+  double field_shift_px = 0.0;             ///< largest between the fields
 };
 
 /// Reads stills of one place and averages them, with the check that nothing moved between them nor,
@@ -35,7 +35,7 @@ class StillAverager {
   [[nodiscard]] core::ImageView picture() const { return picture_.view(); }
 
  private:
-  bool add(const Still& still, core::pose::RestAverage& average, StillsRead& result);
+  bool add(const Still& still, core::picture::RestAverage& average, StillsRead& result);
 
   core::CameraSettings camera_;
   std::vector<std::uint16_t> sums_;

@@ -83,10 +83,10 @@ void print_tool(std::string& out, const PoseFacts& facts) {
 void print_left_out(std::string& out, const core::pose::PictureOutcome& outcome) {
   std::map<std::string, std::string> by_reason;
   for (const core::pose::PictureTube& tube : outcome.tubes) {
-    if (!tube.used && tube.finding != core::pose::RimFinding::kTooSmall &&
-        tube.finding != core::pose::RimFinding::kOutside) {
-      const bool measured = tube.finding == core::pose::RimFinding::kMeasured ||
-                            tube.finding == core::pose::RimFinding::kPartly;
+    if (!tube.used && tube.finding != core::picture::RimFinding::kTooSmall &&
+        tube.finding != core::picture::RimFinding::kOutside) {
+      const bool measured = tube.finding == core::picture::RimFinding::kMeasured ||
+                            tube.finding == core::picture::RimFinding::kPartly;
       const std::string reason(tube.rim >= 0 ? "measured, but at odds with the others"
                                : measured    ? "measured, beyond what one pose takes"
                                              : explain(tube.finding));

@@ -8,10 +8,10 @@
 namespace tubesight::board {
 namespace {
 
+using core::picture::RimFinding;
+using core::picture::ScanRefusal;
 using core::pose::PictureRefusal;
 using core::pose::PoseRefusal;
-using core::pose::RimFinding;
-using core::pose::ScanRefusal;
 
 std::string_view explain(ScanRefusal refusal) {
   switch (refusal) {

@@ -16,6 +16,6 @@ namespace tubesight::board {
 [[nodiscard]] std::string_view explain(core::pose::PoseRefusal refusal);
 
 /// Why a tube-end was not measured, in a few words.
-[[nodiscard]] std::string_view explain(core::pose::RimFinding finding);
+[[nodiscard]] std::string_view explain(core::picture::RimFinding finding);
 
 }  // namespace tubesight::board

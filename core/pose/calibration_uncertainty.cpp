@@ -30,7 +30,7 @@ math::Matrix6d carried(const math::Matrix6d& J, const math::Matrix6d& covariance
 
 // The pose that a changed camera gives for the same rims.
 Result<SheetTool> pose_with(const PoseModel& model, const CameraSettings& camera,
-                            const RimList& rims, const PoseEstimate& estimate,
+                            const picture::RimList& rims, const PoseEstimate& estimate,
                             const RimBundleOptions& options, PoseWorkspace& workspace) {
   const auto camera_model = camera::make_camera_model<double>(camera);
   if (!camera_model) {
@@ -60,7 +60,7 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
   }
 }
 
-Result<math::Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
+Result<math::Matrix6d> camera_sensitivity(const PoseModel& model, const picture::RimList& rims,
                                           const PoseEstimate& estimate,
                                           const std::array<double, 6>& steps,
                                           const RimBundleOptions& options,
@@ -101,7 +101,7 @@ math::Matrix6d tool_sensitivity(const PoseModel& model, const PoseEstimate& esti
   return J;
 }
 
-Result<math::Matrix6d> calibration_covariance(const PoseModel& model, const RimList& rims,
+Result<math::Matrix6d> calibration_covariance(const PoseModel& model, const picture::RimList& rims,
                                               const PoseEstimate& estimate,
                                               const CalibrationUncertainty& uncertainty,
                                               const RimBundleOptions& options,

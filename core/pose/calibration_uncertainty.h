@@ -37,11 +37,9 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
 /// the whole fit, half a `step` to either side. A step of zero leaves its column zero.
 ///
 /// Twelve fits. kOutOfRange: a changed camera can't be made; kIllConditioned: a fit fails.
-[[nodiscard]] Result<math::Matrix6d> camera_sensitivity(const PoseModel& model, const RimList& rims,
-                                                        const PoseEstimate& estimate,
-                                                        const std::array<double, 6>& steps,
-                                                        const RimBundleOptions& options,
-                                                        PoseWorkspace& workspace);
+[[nodiscard]] Result<math::Matrix6d> camera_sensitivity(
+    const PoseModel& model, const picture::RimList& rims, const PoseEstimate& estimate,
+    const std::array<double, 6>& steps, const RimBundleOptions& options, PoseWorkspace& workspace);
 
 /// Derivatives of T_sheet_tool, (tau, theta), by x, y, z (mm) and alpha, beta, gamma (degrees) of
 /// T_camera_tool = Rz(alpha) Ry(beta) Rx(gamma), the sheet's pose in the camera frame unchanged.
@@ -53,7 +51,7 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
 /// The two calibrations count as independent of each other. A tool calibration made with the same
 /// camera cancels part of the camera's share where the tool is docked, so this is on the safe side.
 [[nodiscard]] Result<math::Matrix6d> calibration_covariance(
-    const PoseModel& model, const RimList& rims, const PoseEstimate& estimate,
+    const PoseModel& model, const picture::RimList& rims, const PoseEstimate& estimate,
     const CalibrationUncertainty& uncertainty, const RimBundleOptions& options,
     PoseWorkspace& workspace);
 

@@ -20,7 +20,7 @@ constexpr double kReachSteps = 1.6;
 // Below this a rim's own RMS does not make its centre more certain.
 constexpr double kLeastRms_px = 0.02;
 
-void find_circles(const PoseModel& model, const RimList& rims, PlanePointBuffer& points,
+void find_circles(const PoseModel& model, const picture::RimList& rims, PlanePointBuffer& points,
                   CenterFitWorkspace& workspace) {
   workspace.count = 0;
   const double scale_px = model.camera.parameters().scale_px.x;
@@ -83,7 +83,7 @@ RimFit as_fit(const PoseModel& model, const NPointPose& pose) {
 
 }  // namespace
 
-RimFit fit_centers(const PoseModel& model, const RimList& rims, const CameraSheet& start,
+RimFit fit_centers(const PoseModel& model, const picture::RimList& rims, const CameraSheet& start,
                    PoseMethod method, PlanePointBuffer& points, CenterFitWorkspace& workspace) {
   find_circles(model, rims, points, workspace);
   NPointOptions options;

@@ -32,7 +32,7 @@ struct CenterFitWorkspace {
 ///
 /// The result's rms_px is of the centres; its covariance is scaled by the residuals where there are
 /// more centres than needed. `points` must hold the points of `rims`.
-[[nodiscard]] RimFit fit_centers(const PoseModel& model, const RimList& rims,
+[[nodiscard]] RimFit fit_centers(const PoseModel& model, const picture::RimList& rims,
                                  const Transform<frames::Camera, frames::Sheet>& start,
                                  PoseMethod method, PlanePointBuffer& points,
                                  CenterFitWorkspace& workspace);

@@ -284,7 +284,7 @@ double distance_px(const Conic& conic, const PlanePoint& p) {
 
 // Weights by Tukey's function of the distances, whose scale is their median.
 void reweight(std::span<PlanePoint> points, const Conic& conic, const EllipseOptions& options) {
-  std::array<double, kMaxRimPoints> sizes;
+  std::array<double, picture::kMaxRimPoints> sizes;
   const std::size_t count = std::min(points.size(), sizes.size());
   for (std::size_t i = 0; i < count; ++i) {
     points[i].residual_px = distance_px(conic, points[i]);

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "core/pose/rim_outline.h"
-#include "core/pose/sheet_view.h"
+#include "core/picture/rim_outline.h"
+#include "core/picture/sheet_view.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -36,7 +36,7 @@ using WantedList = StaticVector<Wanted, kMaxPictureTubes>;
 
 class PicturePose {
  public:
-  PicturePose(const AveragedPicture& picture, const PoseModel& model,
+  PicturePose(const picture::AveragedPicture& picture, const PoseModel& model,
               const tubesheet::SheetMap& map, std::span<const PictureStart> starts,
               const PictureOptions& options, PictureWorkspace& workspace)
       : picture_(picture),
@@ -73,15 +73,16 @@ class PicturePose {
     if (std::cmp_less(starts_.size(), options_.pose.min_tubes)) {
       return refuse(PictureRefusal::kTooFewStarts, -1);
     }
-    StaticVector<TubeScan, kMaxPictureStarts> scans;
+    StaticVector<picture::TubeScan, kMaxPictureStarts> scans;
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(starts_.size()); ++i) {
       const PictureStart& start = starts_[static_cast<std::size_t>(i)];
       if (map_.state(start.address) != TubeState::kOpen || !model_.lattice.has(start.address)) {
         return refuse(PictureRefusal::kNoSuchTube, i);
       }
       scan_rim_.address = start.address;
-      const TubeScan scan = scan_tube(picture_, start.u_px, start.v_px, options_.scan, scan_rim_);
-      if (scan.refusal != ScanRefusal::kNone) {
+      const picture::TubeScan scan =
+          picture::scan_tube(picture_, start.u_px, start.v_px, options_.scan, scan_rim_);
+      if (scan.refusal != picture::ScanRefusal::kNone) {
         outcome_.scan = scan.refusal;
         return refuse(PictureRefusal::kStart, i);
       }
@@ -97,11 +98,11 @@ class PicturePose {
     return true;
   }
 
-  static bool same_place(const TubeScan& a, const TubeScan& b) {
-    const auto middle = [](const TubeScan& scan, std::size_t axis) {
+  static bool same_place(const picture::TubeScan& a, const picture::TubeScan& b) {
+    const auto middle = [](const picture::TubeScan& scan, std::size_t axis) {
       return (scan.box_px[axis] + scan.box_px[axis + 2]) / 2.0;
     };
-    const auto half = [](const TubeScan& scan, std::size_t axis) {
+    const auto half = [](const picture::TubeScan& scan, std::size_t axis) {
       return (scan.box_px[axis + 2] - scan.box_px[axis]) / 2.0;
     };
     return std::abs(middle(a, 0) - middle(b, 0)) < half(a, 0) &&
@@ -130,7 +131,7 @@ class PicturePose {
   }
 
   /// The tube-ends of a pass, the nearest to the starts first.
-  void list_wanted(const SheetView& view, const Pass& pass) {
+  void list_wanted(const picture::SheetView& view, const Pass& pass) {
     wanted_.clear();
     const double ring_mm = (pass.ring_steps + 0.01) * model_.lattice.parameters().shortest_step;
     if (options_.only_start || pass.ring_steps == 0.0) {
@@ -150,7 +151,7 @@ class PicturePose {
     });
   }
 
-  void consider(const SheetView& view, TubeAddress address, double ring_mm) {
+  void consider(const picture::SheetView& view, TubeAddress address, double ring_mm) {
     if (!model_.lattice.has(address)) {
       return;
     }
@@ -171,7 +172,7 @@ class PicturePose {
   }
 
   /// Whether a good part of a tube-end can be in the picture, and is not seen too flat.
-  [[nodiscard]] bool reaches_picture(const SheetView& view,
+  [[nodiscard]] bool reaches_picture(const picture::SheetView& view,
                                      const Eigen::Vector2d& center_mm) const {
     const auto center = view.to_pixel(center_mm);
     const double radius_mm = model_.bore_mm / 2.0;
@@ -198,24 +199,24 @@ class PicturePose {
   }
 
   void measure(const Pass& pass) {
-    const SheetView view(model_.camera, outcome_.pose.estimate.T_camera_sheet);
+    const picture::SheetView view(model_.camera, outcome_.pose.estimate.T_camera_sheet);
     list_wanted(view, pass);
     workspace_.rims.clear();
     outcome_.tubes.clear();
-    RimMeasureOptions options = options_.rims;
+    picture::RimMeasureOptions options = options_.rims;
     options.edge.search_px = pass.search_px;
     for (const Wanted& wanted : wanted_) {
       PictureTube tube{wanted.address};
-      if (!project_rim(view, model_.center_mm(wanted.address), model_.bore_mm / 2.0, options.arc_px,
-                       outline_)) {
+      if (!picture::project_rim(view, model_.center_mm(wanted.address), model_.bore_mm / 2.0,
+                                options.arc_px, outline_)) {
         continue;
       }
       scan_rim_.address = wanted.address;
-      tube.finding = measure_rim(picture_, outline_, options, scan_rim_);
+      tube.finding = picture::measure_rim(picture_, outline_, options, scan_rim_);
       tube.u_px = outline_.center_u_px;
       tube.v_px = outline_.center_v_px;
-      const bool measured =
-          tube.finding == RimFinding::kMeasured || tube.finding == RimFinding::kPartly;
+      const bool measured = tube.finding == picture::RimFinding::kMeasured ||
+                            tube.finding == picture::RimFinding::kPartly;
       if (measured && workspace_.rims.try_push_back(scan_rim_)) {
         tube.rim = workspace_.rims.size() - 1;
       }
@@ -235,7 +236,7 @@ class PicturePose {
     }
   }
 
-  const AveragedPicture& picture_;
+  const picture::AveragedPicture& picture_;
   const PoseModel& model_;
   const tubesheet::SheetMap& map_;
   std::span<const PictureStart> starts_;
@@ -243,14 +244,14 @@ class PicturePose {
   PictureWorkspace& workspace_;
   PictureOutcome outcome_;
   WantedList wanted_;
-  RimOutline outline_;
-  Rim scan_rim_;
+  picture::RimOutline outline_;
+  picture::Rim scan_rim_;
 };
 
 }  // namespace
 
-PictureOutcome estimate_from_picture(const AveragedPicture& picture, const PoseModel& model,
-                                     const tubesheet::SheetMap& map,
+PictureOutcome estimate_from_picture(const picture::AveragedPicture& picture,
+                                     const PoseModel& model, const tubesheet::SheetMap& map,
                                      std::span<const PictureStart> starts,
                                      const PictureOptions& options, PictureWorkspace& workspace) {
   return PicturePose(picture, model, map, starts, options, workspace).run();

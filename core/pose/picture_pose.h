@@ -6,11 +6,11 @@
 
 #include "core/base/static_vector.h"
 #include "core/base/tube_address.h"
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
+#include "core/picture/rim_measurement.h"
+#include "core/picture/tube_scan.h"
 #include "core/pose/pose_estimate.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/rim_measurement.h"
-#include "core/pose/tube_scan.h"
 #include "core/tubesheet/sheet_map.h"
 
 namespace tubesight::core::pose {
@@ -38,15 +38,15 @@ enum class PictureRefusal : std::uint8_t {
 /// How a picture is turned into a pose.
 struct PictureOptions {
   PoseOptions pose;
-  ScanOptions scan;
-  RimMeasureOptions rims;
+  picture::ScanOptions scan;
+  picture::RimMeasureOptions rims;
   bool only_start = false;  ///< use the tubes named and no others
 };
 
 /// One tube-end that was looked for.
 struct PictureTube {
   TubeAddress address;
-  RimFinding finding = RimFinding::kMeasured;
+  picture::RimFinding finding = picture::RimFinding::kMeasured;
   bool used = false;      ///< by the pose
   std::int32_t rim = -1;  ///< index in the workspace's rims; -1: not measured
   double u_px = 0.0;      ///< image of its centre by the pose
@@ -61,7 +61,7 @@ inline constexpr std::int32_t kMaxPictureTubes = 192;
 struct PictureOutcome {
   PictureRefusal refusal = PictureRefusal::kNone;
   std::int32_t start = -1;  ///< the place that is to blame
-  ScanRefusal scan = ScanRefusal::kNone;
+  picture::ScanRefusal scan = picture::ScanRefusal::kNone;
   PoseOutcome pose;  ///< also tells the reason of kPose
   StaticVector<PictureTube, kMaxPictureTubes> tubes;
 
@@ -71,7 +71,7 @@ struct PictureOutcome {
 /// Scratch memory of estimate_from_picture(), some 2 MB, owned by the caller. The rims of the last
 /// pass stay readable until the next call.
 struct PictureWorkspace {
-  RimList rims;
+  picture::RimList rims;
   PoseWorkspace pose;
 };
 
@@ -81,7 +81,7 @@ struct PictureWorkspace {
 ///
 /// Tubes that the settings list as plugged or missing are left out, plugs that they don't list are
 /// recognised. Deterministic; costs some 15 ms for 60 tube-ends.
-[[nodiscard]] PictureOutcome estimate_from_picture(const AveragedPicture& picture,
+[[nodiscard]] PictureOutcome estimate_from_picture(const picture::AveragedPicture& picture,
                                                    const PoseModel& model,
                                                    const tubesheet::SheetMap& map,
                                                    std::span<const PictureStart> starts,

@@ -3,7 +3,8 @@
 namespace tubesight::core::pose {
 namespace {
 
-PlanePoint plane_point(const camera::CameraModel<double>::Parameters& p, const RimPoint& point) {
+PlanePoint plane_point(const camera::CameraModel<double>::Parameters& p,
+                       const picture::RimPoint& point) {
   const double x = (point.u_px - p.center_px.x) / p.scale_px.x;
   const double y = (point.v_px - p.center_px.y) / p.scale_px.y;
   const double r2 = x * x + y * y;
@@ -25,13 +26,13 @@ PlanePoint plane_point(const camera::CameraModel<double>::Parameters& p, const R
 
 }  // namespace
 
-void to_plane_points(const camera::CameraModel<double>& camera, const RimList& rims,
+void to_plane_points(const camera::CameraModel<double>& camera, const picture::RimList& rims,
                      PlanePointBuffer& buffer) {
   std::size_t next = 0;
   buffer.rims = rims.size();
   for (std::int32_t rim = 0; rim < rims.size(); ++rim) {
     buffer.first[static_cast<std::size_t>(rim)] = static_cast<std::int32_t>(next);
-    for (const RimPoint& point : rims[rim].points) {
+    for (const picture::RimPoint& point : rims[rim].points) {
       buffer.points[next++] = plane_point(camera.parameters(), point);
     }
   }

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "core/camera/camera_model.h"
-#include "core/pose/rim.h"
+#include "core/picture/rim.h"
 
 namespace tubesight::core::pose {
 
@@ -29,7 +29,7 @@ struct PlanePoint {
 
 /// The points of all rims of a picture, rim after rim.
 struct PlanePointBuffer {
-  std::array<PlanePoint, static_cast<std::size_t>(kMaxTubesInView) * kMaxRimPoints> points;
+  std::array<PlanePoint, static_cast<std::size_t>(kMaxTubesInView) * picture::kMaxRimPoints> points;
   std::array<std::int32_t, kMaxTubesInView + 1> first{};  ///< rim i: first[i] .. first[i + 1]
   std::int32_t rims = 0;
 
@@ -41,7 +41,7 @@ struct PlanePointBuffer {
 };
 
 /// Takes the distortion out of every point of every rim. Some 40 operations a point.
-void to_plane_points(const camera::CameraModel<double>& camera, const RimList& rims,
+void to_plane_points(const camera::CameraModel<double>& camera, const picture::RimList& rims,
                      PlanePointBuffer& buffer);
 
 }  // namespace tubesight::core::pose

@@ -18,7 +18,7 @@ constexpr double kBoreTolerance = 0.15;
 // A tube-end this share of the shortest step beside its place stands at another address.
 constexpr double kAddressShare = 0.25;
 
-PoseRefusal check_addresses(const PoseModel& model, const RimList& rims) {
+PoseRefusal check_addresses(const PoseModel& model, const picture::RimList& rims) {
   for (std::int32_t i = 0; i < rims.size(); ++i) {
     if (!model.lattice.has(rims[i].address)) {
       return PoseRefusal::kAddressesContradict;
@@ -100,8 +100,8 @@ bool same_pose(const RimFit& a, const RimFit& b, double rms_ratio) {
 
 // Fits the first candidate, and any other that the ellipses' centres don't rule out: one whose RMS
 // is within twice the first's plus a pixel, which is what eccentricity may hide.
-Contest fit_candidates(const PoseModel& model, const RimList& rims, const PoseOptions& options,
-                       PoseWorkspace& workspace) {
+Contest fit_candidates(const PoseModel& model, const picture::RimList& rims,
+                       const PoseOptions& options, PoseWorkspace& workspace) {
   const PoseSeeds& seeds = workspace.seeds;
   const auto fit_from = [&](std::int32_t i) {
     const CameraSheet& T = seeds.candidates[i].T_camera_sheet;
@@ -145,8 +145,9 @@ Contest fit_candidates(const PoseModel& model, const RimList& rims, const PoseOp
   return contest;
 }
 
-void report_rims(const PoseModel& model, const RimList& rims, const CameraSheet& T_camera_sheet,
-                 PoseWorkspace& workspace, PoseOutcome& outcome) {
+void report_rims(const PoseModel& model, const picture::RimList& rims,
+                 const CameraSheet& T_camera_sheet, PoseWorkspace& workspace,
+                 PoseOutcome& outcome) {
   for (std::int32_t i = 0; i < rims.size(); ++i) {
     const RimState& state = workspace.bundle.rims[static_cast<std::size_t>(i)];
     RimVerdict verdict;
@@ -219,7 +220,7 @@ PoseRefusal judge(const PoseModel& model, const RimFit& fit, const PoseOptions& 
 }
 
 // The comparison methods: n points from the best candidate on.
-void by_centers(const PoseModel& model, const RimList& rims, const PoseOptions& options,
+void by_centers(const PoseModel& model, const picture::RimList& rims, const PoseOptions& options,
                 PoseWorkspace& workspace, PoseOutcome& outcome) {
   const RimFit fit = fit_centers(model, rims, workspace.seeds.candidates[0].T_camera_sheet,
                                  options.method, workspace.points, workspace.centers);
@@ -233,8 +234,8 @@ void by_centers(const PoseModel& model, const RimList& rims, const PoseOptions& 
 
 }  // namespace
 
-PoseOutcome estimate_pose(const PoseModel& model, const RimList& rims, const PoseOptions& options,
-                          PoseWorkspace& workspace) {
+PoseOutcome estimate_pose(const PoseModel& model, const picture::RimList& rims,
+                          const PoseOptions& options, PoseWorkspace& workspace) {
   PoseOutcome outcome;
   outcome.refusal = check_addresses(model, rims);
   if (!outcome.has_value()) {

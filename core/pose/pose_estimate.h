@@ -6,13 +6,13 @@
 #include "core/base/static_vector.h"
 #include "core/base/transform.h"
 #include "core/math/matrix.h"
+#include "core/picture/rim.h"
 #include "core/pose/center_fit.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/pose_method.h"
 #include "core/pose/pose_model.h"
 #include "core/pose/pose_refusal.h"
 #include "core/pose/pose_seed.h"
-#include "core/pose/rim.h"
 #include "core/pose/rim_bundle.h"
 
 namespace tubesight::core::pose {
@@ -78,7 +78,7 @@ struct PoseWorkspace {
 ///
 /// Closed-form planar pose from the ellipses' centres, both of its solutions examined, then the
 /// method asked for. Same rims, same result, on one machine to the bit.
-[[nodiscard]] PoseOutcome estimate_pose(const PoseModel& model, const RimList& rims,
+[[nodiscard]] PoseOutcome estimate_pose(const PoseModel& model, const picture::RimList& rims,
                                         const PoseOptions& options, PoseWorkspace& workspace);
 
 }  // namespace tubesight::core::pose

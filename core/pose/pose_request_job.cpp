@@ -65,7 +65,7 @@ PoseResult make_pose_result(const PictureOutcome& outcome) {
 
 void PoseRequestJob::begin(const PoseOrder& order, std::int32_t fields) {
   order_ = order;
-  wanted_ = std::clamp(fields, 1, 2 * kMaxAveragedFrames);
+  wanted_ = std::clamp(fields, 1, 2 * picture::kMaxAveragedFrames);
   average_.emplace(sums_, model_.camera_settings.width_px, model_.camera_settings.height_px);
 }
 
@@ -87,7 +87,7 @@ PoseResult PoseRequestJob::compute() {
     average_.reset();
     return result;
   }
-  const RestOutcome rest = average_->finish();
+  const picture::RestOutcome rest = average_->finish();
   average_.reset();
   if (!rest.rested) {
     result.reason = PoseReason::kMoving;

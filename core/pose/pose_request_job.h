@@ -7,9 +7,9 @@
 #include "core/base/field.h"
 #include "core/base/pose_result.h"
 #include "core/base/reply.h"
+#include "core/picture/rest_average.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/rest_average.h"
 #include "core/tubesheet/sheet_map.h"
 
 namespace tubesight::core::pose {
@@ -54,7 +54,7 @@ class PoseRequestJob {
   const tubesheet::SheetMap& map_;
   std::span<std::uint16_t> sums_;
   PictureWorkspace& workspace_;
-  std::optional<RestAverage> average_;
+  std::optional<picture::RestAverage> average_;
   PoseOrder order_;
   PictureOutcome outcome_;
   std::int32_t wanted_ = 0;

@@ -24,7 +24,7 @@ constexpr double kCollinearShare = 1e-2;
 constexpr std::int32_t kEnoughPairs = 6;
 constexpr double kGoodRms_px = 3.0;
 
-void collect_pairs(const PoseModel& model, const RimList& rims, PlanePointBuffer& points,
+void collect_pairs(const PoseModel& model, const picture::RimList& rims, PlanePointBuffer& points,
                    PoseSeeds& seeds) {
   seeds.pairs.clear();
   seeds.circles.clear();
@@ -180,7 +180,7 @@ void polish(PoseSeeds& seeds) {
 
 }  // namespace
 
-PoseRefusal find_seeds(const PoseModel& model, const RimList& rims, std::int32_t min_tubes,
+PoseRefusal find_seeds(const PoseModel& model, const picture::RimList& rims, std::int32_t min_tubes,
                        PlanePointBuffer& points, PoseSeeds& seeds) {
   collect_pairs(model, rims, points, seeds);
   if (seeds.pairs.size() < min_tubes) {

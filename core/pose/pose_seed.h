@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/picture/rim.h"
 #include "core/pose/fixed_list.h"
 #include "core/pose/planar_pose.h"
 #include "core/pose/plane_points.h"
@@ -9,7 +10,6 @@
 #include "core/pose/pose_model.h"
 #include "core/pose/pose_refusal.h"
 #include "core/pose/projected_center.h"
-#include "core/pose/rim.h"
 
 namespace tubesight::core::pose {
 
@@ -27,7 +27,7 @@ struct PoseSeeds {
 ///
 /// kTooFewTubes: fewer rims than `min_tubes` are ellipses; kCollinear: their centres lie on one
 /// line; kAddressesContradict: no pose shows three tube-ends where the rims are.
-[[nodiscard]] PoseRefusal find_seeds(const PoseModel& model, const RimList& rims,
+[[nodiscard]] PoseRefusal find_seeds(const PoseModel& model, const picture::RimList& rims,
                                      std::int32_t min_tubes, PlanePointBuffer& points,
                                      PoseSeeds& seeds);
 

@@ -100,8 +100,9 @@ void drop_rims(const RimProblem& problem, PlanePointBuffer& points, RimBundleWor
   }
 }
 
-void begin_fit(const PoseModel& model, const RimList& rims, const RimBundleOptions& options,
-               const SheetTool& start, RimBundleWorkspace& workspace, RimProblem& problem) {
+void begin_fit(const PoseModel& model, const picture::RimList& rims,
+               const RimBundleOptions& options, const SheetTool& start,
+               RimBundleWorkspace& workspace, RimProblem& problem) {
   problem.model = &model;
   problem.options = &options;
   problem.R_sheet_tool = start.rotation();
@@ -149,7 +150,7 @@ void finish_fit(const RimProblem& problem, std::span<const RimState> rims,
 
 }  // namespace
 
-RimFit fit_rims(const PoseModel& model, const RimList& rims, const SheetTool& start,
+RimFit fit_rims(const PoseModel& model, const picture::RimList& rims, const SheetTool& start,
                 const RimBundleOptions& options, PlanePointBuffer& points,
                 RimBundleWorkspace& workspace) {
   RimProblem problem;

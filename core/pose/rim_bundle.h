@@ -6,9 +6,9 @@
 #include "core/base/sighting.h"
 #include "core/base/transform.h"
 #include "core/math/matrix.h"
+#include "core/picture/rim.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/rim.h"
 #include "core/pose/rim_equations.h"
 #include "core/pose/rim_options.h"
 
@@ -17,7 +17,7 @@ namespace tubesight::core::pose {
 /// Scratch memory of fit_rims().
 struct RimBundleWorkspace {
   std::array<RimState, kMaxTubesInView> rims;
-  std::array<float, static_cast<std::size_t>(kMaxTubesInView) * kMaxRimPoints> residuals;
+  std::array<float, static_cast<std::size_t>(kMaxTubesInView) * picture::kMaxRimPoints> residuals;
 };
 
 /// How a fit of rims ended.
@@ -45,7 +45,7 @@ struct RimFit {
 /// The perturbation is on the left, in the sheet frame: T = (exp([theta]x) R, p + tau); the
 /// covariance is of (tau, theta). `start` should be within a few millimetres. Points far off are
 /// left out by Tukey's weights, rims that don't agree with the others as a whole.
-[[nodiscard]] RimFit fit_rims(const PoseModel& model, const RimList& rims,
+[[nodiscard]] RimFit fit_rims(const PoseModel& model, const picture::RimList& rims,
                               const Transform<frames::Sheet, frames::Tool>& start,
                               const RimBundleOptions& options, PlanePointBuffer& points,
                               RimBundleWorkspace& workspace);

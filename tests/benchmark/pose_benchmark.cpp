@@ -11,10 +11,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "core/picture/rest_average.h"
+#include "core/picture/rim_measurement.h"
+#include "core/picture/sheet_view.h"
 #include "core/pose/picture_pose.h"
-#include "core/pose/rest_average.h"
-#include "core/pose/rim_measurement.h"
-#include "core/pose/sheet_view.h"
 #include "drivers/files/picture_reader.h"
 #include "drivers/settings/session_settings.h"
 
@@ -30,7 +30,7 @@ struct Still {
   PoseModel model;
   drivers::GreyPicture grey;
   std::vector<std::uint16_t> sums;
-  AveragedPicture picture;
+  core::picture::AveragedPicture picture;
   PictureWorkspace workspace;
   PictureOutcome outcome;
   std::vector<PictureStart> nine;
@@ -65,7 +65,7 @@ struct Still {
     std::exit(1);
   }
   void average() {
-    RestAverage frames(sums, grey.width_px, grey.height_px);
+    core::picture::RestAverage frames(sums, grey.width_px, grey.height_px);
     if (!frames.add(core::field_of(grey.view(), core::Parity::kEven)) ||
         !frames.add(core::field_of(grey.view(), core::Parity::kOdd))) {
       fail();
@@ -98,17 +98,18 @@ void edges_to_pose(benchmark::State& state) {
 BENCHMARK(edges_to_pose)->Unit(benchmark::kMicrosecond);
 
 /// Measures the edges of nine tube-ends across their rims as `view` predicts them.
-void measure_nine(Still& s, const SheetView& view) {
-  static RimOutline outline;
-  static Rim rim;
-  RimMeasureOptions options;
+void measure_nine(Still& s, const core::picture::SheetView& view) {
+  static core::picture::RimOutline outline;
+  static core::picture::Rim rim;
+  core::picture::RimMeasureOptions options;
   options.edge.search_px = 2.0;
   s.workspace.rims.clear();
   for (const PictureStart& tube : s.nine) {
     rim.address = tube.address;
-    if (project_rim(view, s.model.center_mm(tube.address), s.model.bore_mm / 2.0, options.arc_px,
-                    outline) &&
-        measure_rim(s.picture, outline, options, rim) <= RimFinding::kPartly) {
+    if (core::picture::project_rim(view, s.model.center_mm(tube.address), s.model.bore_mm / 2.0,
+                                   options.arc_px, outline) &&
+        core::picture::measure_rim(s.picture, outline, options, rim) <=
+            core::picture::RimFinding::kPartly) {
       static_cast<void>(s.workspace.rims.try_push_back(rim));
     }
   }
@@ -118,7 +119,7 @@ void measure_nine(Still& s, const SheetView& view) {
 void measure_edges(benchmark::State& state) {
   Still& s = still();
   s.estimate(true);
-  const SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
+  const core::picture::SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
   for (auto _ : state) {
     measure_nine(s, view);
   }
@@ -129,7 +130,7 @@ BENCHMARK(measure_edges)->Unit(benchmark::kMicrosecond);
 void measure_and_fit(benchmark::State& state) {
   Still& s = still();
   s.estimate(true);
-  const SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
+  const core::picture::SheetView view(s.model.camera, s.outcome.pose.estimate.T_camera_sheet);
   for (auto _ : state) {
     measure_nine(s, view);
     const PoseOutcome pose = estimate_pose(s.model, s.workspace.rims, {}, s.workspace.pose);

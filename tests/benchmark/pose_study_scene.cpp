@@ -13,7 +13,7 @@ using core::math::Vector6d;
 
 StudyScene::StudyScene()
     : settings_(std::make_unique<core::SessionSettings>()),
-      rims_(std::make_unique<core::pose::RimList>()),
+      rims_(std::make_unique<core::picture::RimList>()),
       workspace_(std::make_unique<core::pose::PoseWorkspace>()) {
   tests::make_synthetic_settings(*settings_);
   sheet_ = std::make_unique<tests::SyntheticSheet>(*settings_);

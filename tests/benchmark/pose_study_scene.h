@@ -49,13 +49,13 @@ class StudyScene {
 
   [[nodiscard]] const tests::SyntheticSheet& sheet() const { return *sheet_; }
   [[nodiscard]] const core::pose::PoseModel& model() const { return model_; }
-  [[nodiscard]] core::pose::RimList& rims() { return *rims_; }
+  [[nodiscard]] core::picture::RimList& rims() { return *rims_; }
   [[nodiscard]] core::pose::PoseWorkspace& workspace() { return *workspace_; }
 
  private:
   std::unique_ptr<core::SessionSettings> settings_;
   std::unique_ptr<tests::SyntheticSheet> sheet_;
-  std::unique_ptr<core::pose::RimList> rims_;
+  std::unique_ptr<core::picture::RimList> rims_;
   std::unique_ptr<core::pose::PoseWorkspace> workspace_;
   core::pose::PoseModel model_;
 };

@@ -18,7 +18,8 @@ from source_text import code_only, report, sources
 BASE = ["core/base"]
 TRACKING = BASE + ["core/camera", "core/tubesheet", "core/edges"]
 MATH = ["core/math"]
-POSE = TRACKING + MATH
+PICTURE = BASE + MATH + ["core/camera", "core/edges"]
+POSE = PICTURE + ["core/picture", "core/tubesheet"]
 
 # Folder: the folders of ours it may include beside itself.
 MAY_INCLUDE = {
@@ -29,6 +30,7 @@ MAY_INCLUDE = {
     "core/tubesheet": BASE,
     "core/edges": BASE,
     "core/tracking": TRACKING,
+    "core/picture": PICTURE,
     "core/pose": POSE,
     "core/kinematics": BASE + MATH,
     "core/calibration": POSE + ["core/pose", "core/kinematics"],
@@ -36,9 +38,8 @@ MAY_INCLUDE = {
     "core/verification": BASE + MATH + ["core/tubesheet", "core/tracking", "core/pose"],
     "core/overlay": BASE + ["core/camera", "core/tubesheet"],
     "core/rendering": BASE + MATH + ["core/camera", "core/tubesheet", "core/kinematics"],
-    "core/session": TRACKING + MATH + ["core/tracking", "core/pose", "core/calibration",
-                                "core/kinematics", "core/lighting", "core/verification",
-                                "core/overlay"],
+    "core/session": POSE + ["core/tracking", "core/pose", "core/calibration", "core/kinematics",
+                            "core/lighting", "core/verification", "core/overlay"],
     "drivers/files": BASE + ["hal"],
     # Drivers do not know each other, with one exception: drivers/files holds what all that read files
     # share (places and messages), and is the library that a recording as a frame grabber stands on.
@@ -54,8 +55,8 @@ BOX = "board/box"
 CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
     cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
     tuple type_traits utility variant version""".split())
-EIGEN_FOLDERS = ("core/base", "core/math", "core/pose", "core/calibration", "core/kinematics",
-                 "core/rendering", "core/verification")
+EIGEN_FOLDERS = ("core/base", "core/math", "core/picture", "core/pose", "core/calibration",
+                 "core/kinematics", "core/rendering", "core/verification")
 
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
     cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string

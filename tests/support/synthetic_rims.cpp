@@ -40,7 +40,7 @@ double Deviates::normal() {
 
 void make_rims(const SyntheticSheet& sheet, const core::SessionSettings& settings,
                const ToolPlace& place, const std::vector<core::TubeAddress>& addresses,
-               const RimLook& look, Deviates& deviates, core::pose::RimList& rims) {
+               const RimLook& look, Deviates& deviates, core::picture::RimList& rims) {
   rims.clear();
   const double degree = 3.14159265358979323846 / 180.0;
   for (const core::TubeAddress& address : addresses) {
@@ -49,7 +49,7 @@ void make_rims(const SyntheticSheet& sheet, const core::SessionSettings& setting
                    center[1] + look.center_sigma_mm * deviates.normal(),
                    look.height_sigma_mm * deviates.normal()},
                   0.5 * (settings.tubesheet.bore_mm + look.bore_sigma_mm * deviates.normal())};
-    static core::pose::Rim rim;
+    static core::picture::Rim rim;
     rim.address = address;
     rim.points.clear();
     bool whole = true;

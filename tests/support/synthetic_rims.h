@@ -5,7 +5,7 @@
 
 #include "core/base/settings.h"
 #include "core/base/tube_address.h"
-#include "core/pose/rim.h"
+#include "core/picture/rim.h"
 #include "tests/support/synthetic_sheet.h"
 
 namespace tubesight::tests {
@@ -39,7 +39,7 @@ struct RimLook {
 /// don't lie wholly in the picture are left out.
 void make_rims(const SyntheticSheet& sheet, const core::SessionSettings& settings,
                const ToolPlace& place, const std::vector<core::TubeAddress>& addresses,
-               const RimLook& look, Deviates& deviates, core::pose::RimList& rims);
+               const RimLook& look, Deviates& deviates, core::picture::RimList& rims);
 
 /// The addresses nearest to where the tool's axis meets the sheet, nearest first; `half` rows and
 /// columns to every side are looked at.

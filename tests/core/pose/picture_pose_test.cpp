@@ -65,8 +65,8 @@ TEST_F(PicturePoseOf, APictureAsksForNoMemory) {
   const auto places = starts(kThree);
 
   const tests::HeapGuard guard;
-  PictureAverage average(still_.sums, still_.settings->camera.width_px,
-                         still_.settings->camera.height_px);
+  picture::PictureAverage average(still_.sums, still_.settings->camera.width_px,
+                                  still_.settings->camera.height_px);
   const bool added = average.add(still_.field(Parity::kEven)).has_value() &&
                      average.add(still_.field(Parity::kOdd)).has_value();
   const auto picture = average.finish();
@@ -94,7 +94,7 @@ TEST_F(PicturePoseOf, PlugsThatNoListNamesAreRecognised) {
 
   expect_right(0.02, 0.02);
   ASSERT_NE(find({18, 10}), nullptr);
-  EXPECT_EQ(find({18, 10})->finding, RimFinding::kBright);
+  EXPECT_EQ(find({18, 10})->finding, picture::RimFinding::kBright);
   EXPECT_FALSE(find({18, 10})->used);
   ASSERT_NE(find({19, 12}), nullptr);
   EXPECT_FALSE(find({19, 12})->used);
@@ -125,7 +125,7 @@ TEST_F(PicturePoseOf, APlaceOnTheSheetIsToldByItsNumber) {
 
   EXPECT_EQ(outcome_->refusal, PictureRefusal::kStart);
   EXPECT_EQ(outcome_->start, 1);
-  EXPECT_NE(outcome_->scan, ScanRefusal::kNone);
+  EXPECT_NE(outcome_->scan, picture::ScanRefusal::kNone);
 }
 
 TEST_F(PicturePoseOf, TwoPlacesInOneTubeEndAreRefused) {

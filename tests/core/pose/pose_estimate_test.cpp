@@ -102,8 +102,8 @@ TEST(EstimatePose, WorksFromHalvesOfRims) {
 TEST(EstimatePose, LeavesOutFalsePointsAndFalseRims) {
   PoseScene scene;
   scene.see(kPlace, 25, {.noise_px = 0.1, .outlier_share = 0.15}, 3);
-  Rim& plug = (*scene.rims)[4];  // a plug's rim: 1.5 px to the right of the bore's
-  for (RimPoint& point : plug.points) {
+  picture::Rim& plug = (*scene.rims)[4];  // a plug's rim: 1.5 px to the right of the bore's
+  for (picture::RimPoint& point : plug.points) {
     point.u_px += 1.5;
   }
 
@@ -219,9 +219,9 @@ TEST(EstimatePose, RefusesTubesOnALine) {
 TEST(EstimatePose, RefusesAddressesThatContradictThePicture) {
   PoseScene scene;
   scene.see(kPlace, 9, {});
-  const RimList right = *scene.rims;
+  const picture::RimList right = *scene.rims;
 
-  for (Rim& rim : *scene.rims) {  // mirrored
+  for (picture::Rim& rim : *scene.rims) {  // mirrored
     rim.address.column = -rim.address.column;
   }
   EXPECT_EQ(scene.estimate().refusal, PoseRefusal::kAddressesContradict);
@@ -231,7 +231,7 @@ TEST(EstimatePose, RefusesAddressesThatContradictThePicture) {
   EXPECT_EQ(scene.estimate().refusal, PoseRefusal::kAddressesContradict);
 
   *scene.rims = right;  // twice the pitch
-  for (Rim& rim : *scene.rims) {
+  for (picture::Rim& rim : *scene.rims) {
     rim.address = {2 * rim.address.row, 2 * rim.address.column};
   }
   EXPECT_EQ(scene.estimate().refusal, PoseRefusal::kAddressesContradict);

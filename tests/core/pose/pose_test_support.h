@@ -57,7 +57,7 @@ class PoseScene {
   [[nodiscard]] const SessionSettings& settings() const { return *settings_; }
 
   PoseModel model;
-  std::unique_ptr<RimList> rims = std::make_unique<RimList>();
+  std::unique_ptr<picture::RimList> rims = std::make_unique<picture::RimList>();
   std::unique_ptr<PoseWorkspace> workspace = std::make_unique<PoseWorkspace>();
 
  private:

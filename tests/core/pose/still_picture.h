@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/settings.h"
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 #include "core/pose/picture_pose.h"
 #include "core/pose/pose_model.h"
 #include "core/tubesheet/sheet_map.h"
@@ -59,13 +59,13 @@ struct StillPicture {
   }
 
   /// The frame as an average of one.
-  [[nodiscard]] AveragedPicture averaged() {
-    PictureAverage average(sums, settings->camera.width_px, settings->camera.height_px);
+  [[nodiscard]] picture::AveragedPicture averaged() {
+    picture::PictureAverage average(sums, settings->camera.width_px, settings->camera.height_px);
     EXPECT_TRUE(average.add(field(Parity::kEven)).has_value());
     EXPECT_TRUE(average.add(field(Parity::kOdd)).has_value());
     const auto picture = average.finish();
     EXPECT_TRUE(picture.has_value());
-    return picture.value_or(AveragedPicture{});
+    return picture.value_or(picture::AveragedPicture{});
   }
 
   /// A start inside a tube-end, some pixels off its centre.

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// A walk along a row or a column of an averaged picture in one direction, with the two paths
 /// beside it that the 24-pixel operator reads [Fallon eq. 5.1]: v±2 on a row, u±2 on a column.
@@ -48,4 +48,4 @@ struct ScanEdge {
 [[nodiscard]] ScanEdge find_scan_edge(const ScanPath& path, std::int32_t first, std::int32_t reach,
                                       std::int32_t threshold);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

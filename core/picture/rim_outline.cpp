@@ -1,11 +1,11 @@
-#include "core/pose/rim_outline.h"
+#include "core/picture/rim_outline.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 constexpr std::int32_t kFewestArcs = 16;
@@ -92,4 +92,4 @@ bool project_rim(const SheetView& view, const Eigen::Vector2d& center_mm, double
   return true;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,12 +1,16 @@
-#include "core/pose/rest_average.h"
+#include "core/picture/rest_average.h"
 
 #include <gtest/gtest.h>
 
-#include "core/pose/rest_check.h"
+#include "core/picture/rest_check.h"
 #include "tests/core/pose/still_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
+
+using pose::kStillPlace;
+using pose::kUnderTube;
+using pose::StillPicture;
 
 class RestAverageOf : public ::testing::Test {
  protected:
@@ -98,4 +102,4 @@ TEST(ShiftBetweenFrames, FollowsASmallMove) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

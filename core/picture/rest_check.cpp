@@ -1,4 +1,4 @@
-#include "core/pose/rest_check.h"
+#include "core/picture/rest_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 constexpr int kUnknowns = 8;  // du, dv and their four derivatives; gain and offset of the light
@@ -115,4 +115,4 @@ PictureShift shift_between_fields(const PictureAverage& average) {
   return fit.solve();
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,4 +1,4 @@
-#include "core/pose/arc_edge.h"
+#include "core/picture/arc_edge.h"
 
 #include <cmath>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 constexpr std::int32_t kSide = 60;
@@ -133,4 +133,4 @@ TEST(FindArcEdge, RefusesWhatIsNoEdge) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "core/base/image_view.h"
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// How far a picture lies off another one.
 struct PictureShift {
@@ -35,4 +35,4 @@ inline constexpr double kLargestFieldShift_px = 0.4;
 /// two fields of an interlaced frame. Needs both summed.
 [[nodiscard]] PictureShift shift_between_fields(const PictureAverage& average);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -6,7 +6,7 @@
 #include "core/base/static_vector.h"
 #include "core/base/tube_address.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// Points that one rim holds. A rim that fills the picture's height has a circumference of some
 /// 1500 px; points closer than the blur repeat each other, and 128 of them place a centre to a
@@ -31,4 +31,4 @@ struct Rim {
 /// All rims of one picture. 0.5 MB: static or in a workspace, never on a stack.
 using RimList = StaticVector<Rim, kMaxTubesInView>;
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

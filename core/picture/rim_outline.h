@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 
 #include "core/base/static_vector.h"
-#include "core/pose/rim.h"
-#include "core/pose/sheet_view.h"
+#include "core/picture/rim.h"
+#include "core/picture/sheet_view.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// A short piece of a rim's predicted image.
 struct OutlineArc {
@@ -37,4 +37,4 @@ struct RimOutline {
 [[nodiscard]] bool project_rim(const SheetView& view, const Eigen::Vector2d& center_mm,
                                double radius_mm, double arc_px, RimOutline& outline);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

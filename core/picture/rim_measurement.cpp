@@ -1,4 +1,4 @@
-#include "core/pose/rim_measurement.h"
+#include "core/picture/rim_measurement.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 /// An edge found at one piece of the outline.
@@ -172,4 +172,4 @@ RimFinding measure_rim(const AveragedPicture& picture, const RimOutline& outline
   return rim.points.size() * 10 >= all * 8 ? RimFinding::kMeasured : RimFinding::kPartly;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,6 +1,6 @@
-#include "core/pose/sheet_view.h"
+#include "core/picture/sheet_view.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 // Nearer than this to the plane through the projection point nothing is imaged.
@@ -37,4 +37,4 @@ std::optional<Eigen::Vector2d> SheetView::to_sheet(const Eigen::Vector2d& pixel)
   return Eigen::Vector2d(R.col(0).dot(off), R.col(1).dot(off));
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

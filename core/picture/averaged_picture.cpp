@@ -1,8 +1,8 @@
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 
 #include <algorithm>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 PictureAverage::PictureAverage(std::span<std::uint16_t> buffer, std::int32_t width_px,
                                std::int32_t height_px)
@@ -80,4 +80,4 @@ Result<AveragedPicture> PictureAverage::finish() {
   return AveragedPicture{buffer_.data(), width_px_, height_px_};
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -8,7 +8,7 @@
 #include "core/base/image_view.h"
 #include "core/base/result.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// Frames that one average takes: 32 times 255 still fits the 16 bits of a sum.
 inline constexpr std::int32_t kMaxAveragedFrames = 32;
@@ -74,4 +74,4 @@ class PictureAverage {
   std::array<std::int32_t, 2> counts_{};
 };
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -5,9 +5,9 @@
 
 #include "core/base/image_view.h"
 #include "core/base/result.h"
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// A picture averaged at rest, or the motion that forbids it.
 struct RestOutcome {
@@ -42,4 +42,4 @@ class RestAverage {
   bool interlaced_ = false;
 };
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

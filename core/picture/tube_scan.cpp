@@ -1,12 +1,12 @@
-#include "core/pose/tube_scan.h"
+#include "core/picture/tube_scan.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/edges/dynamic_threshold.h"
-#include "core/pose/scan_path.h"
+#include "core/picture/scan_path.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 using edges::DynamicThreshold;
@@ -219,4 +219,4 @@ TubeScan scan_tube(const AveragedPicture& picture, double u_px, double v_px,
   return scan;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,10 +1,10 @@
-#include "core/pose/rest_average.h"
+#include "core/picture/rest_average.h"
 
 #include <algorithm>
 
-#include "core/pose/rest_check.h"
+#include "core/picture/rest_check.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 Result<void> RestAverage::add(const FieldView& field) {
   const bool comparable = average_.count(field.first_line) > 0 && field.lines >= 3 &&
@@ -31,4 +31,4 @@ RestOutcome RestAverage::finish() {
   return outcome;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

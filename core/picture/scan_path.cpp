@@ -1,8 +1,8 @@
-#include "core/pose/scan_path.h"
+#include "core/picture/scan_path.h"
 
 #include <algorithm>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 // The rise has passed its peak when the gradient did not grow for so many steps.
@@ -77,4 +77,4 @@ ScanEdge find_scan_edge(const ScanPath& path, std::int32_t first, std::int32_t r
   return found ? refine(path, peak, best) : ScanEdge{};
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

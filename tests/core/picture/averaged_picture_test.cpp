@@ -1,11 +1,11 @@
-#include "core/pose/averaged_picture.h"
+#include "core/picture/averaged_picture.h"
 
 #include <array>
 #include <cstdint>
 
 #include <gtest/gtest.h>
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 // 2 columns, 4 lines.
@@ -100,4 +100,4 @@ TEST_F(PictureAverageOf, NothingIsNotReady) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

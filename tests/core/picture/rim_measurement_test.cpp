@@ -1,15 +1,19 @@
-#include "core/pose/rim_measurement.h"
+#include "core/picture/rim_measurement.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "core/pose/sheet_view.h"
+#include "core/picture/sheet_view.h"
 #include "core/pose/tool_answer.h"
 #include "tests/core/pose/still_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
+
+using pose::kStillPlace;
+using pose::kUnderTube;
+using pose::StillPicture;
 
 class RimMeasurementOf : public ::testing::Test {
  protected:
@@ -94,4 +98,4 @@ TEST_F(RimMeasurementOf, ATubeEndFarAwayIsTooSmall) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,4 +1,4 @@
-#include "core/pose/tube_scan.h"
+#include "core/picture/tube_scan.h"
 
 #include <cmath>
 
@@ -6,8 +6,12 @@
 
 #include "tests/core/pose/still_picture.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
+
+using pose::kStillPlace;
+using pose::kUnderTube;
+using pose::StillPicture;
 
 class TubeScanOf : public ::testing::Test {
  protected:
@@ -84,4 +88,4 @@ TEST_F(TubeScanOf, AFlatPictureHasNoBoundary) {
 }
 
 }  // namespace
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

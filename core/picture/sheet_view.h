@@ -7,7 +7,7 @@
 #include "core/base/transform.h"
 #include "core/camera/camera_model.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// The sheet as the camera sees it from one pose: points of its plane to pixels and back.
 class SheetView {
@@ -32,4 +32,4 @@ class SheetView {
   Transform<frames::Camera, frames::Sheet> T_camera_sheet_;
 };
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -1,4 +1,4 @@
-#include "core/pose/arc_edge.h"
+#include "core/picture/arc_edge.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 #include "core/math/cholesky.h"
 #include "core/math/gaussian_step.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 namespace {
 
 // A piece 9 px long of a profile 18 px long, and some for slanted ones.
@@ -363,4 +363,4 @@ ArcEdge find_arc_edge(const AveragedPicture& picture, const OutlineArc& arc,
   return edge;
 }
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -3,10 +3,10 @@
 #include <array>
 #include <cstdint>
 
-#include "core/pose/averaged_picture.h"
-#include "core/pose/rim.h"
+#include "core/picture/averaged_picture.h"
+#include "core/picture/rim.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// Why a place of the picture gave no tube-end.
 enum class ScanRefusal : std::uint8_t {
@@ -40,4 +40,4 @@ struct TubeScan {
 [[nodiscard]] TubeScan scan_tube(const AveragedPicture& picture, double u_px, double v_px,
                                  const ScanOptions& options, Rim& rim);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-#include "core/pose/arc_edge.h"
-#include "core/pose/averaged_picture.h"
-#include "core/pose/rim.h"
-#include "core/pose/rim_outline.h"
+#include "core/picture/arc_edge.h"
+#include "core/picture/averaged_picture.h"
+#include "core/picture/rim.h"
+#include "core/picture/rim_outline.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// What was found where a tube-end was expected.
 enum class RimFinding : std::uint8_t {
@@ -37,4 +37,4 @@ struct RimMeasureOptions {
 [[nodiscard]] RimFinding measure_rim(const AveragedPicture& picture, const RimOutline& outline,
                                      const RimMeasureOptions& options, Rim& rim);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "core/pose/averaged_picture.h"
-#include "core/pose/rim_outline.h"
+#include "core/picture/averaged_picture.h"
+#include "core/picture/rim_outline.h"
 
-namespace tubesight::core::pose {
+namespace tubesight::core::picture {
 
 /// How an edge is placed across its direction; compared in docs/accuracy.md.
 enum class EdgeMethod : std::uint8_t {
@@ -53,4 +53,4 @@ struct ArcEdge {
 [[nodiscard]] ArcEdge find_arc_edge(const AveragedPicture& picture, const OutlineArc& arc,
                                     const ArcEdgeOptions& options);
 
-}  // namespace tubesight::core::pose
+}  // namespace tubesight::core::picture
