@@ -1,11 +1,7 @@
 #include "board/bench/output_paths.h"
 
-#include <array>
 #include <filesystem>
 #include <system_error>
-#include <vector>
-
-#include "drivers/replay/companion.h"
 
 namespace tubesight::board {
 namespace {
@@ -50,41 +46,6 @@ std::string find_clash(std::span<const NamedPath> inputs, std::span<const NamedP
     }
   }
   return {};
-}
-
-std::string find_output_conflict(const ReplayOptions& options) {
-  if (options.overlay.ends_with(".y4m.xz")) {
-    return "--overlay: '" + options.overlay +
-           "' would be a compressed video, expected a folder or a name that ends in .y4m";
-  }
-  const std::array inputs = {
-      NamedPath{"the session", options.session},
-      NamedPath{"the recording", options.recording},
-      NamedPath{"the recording's meta file",
-                drivers::companion_path(options.recording, ".meta.csv")},
-      NamedPath{"the recording's event file",
-                drivers::companion_path(options.recording, ".events.csv")},
-  };
-  const std::array outputs = {
-      NamedPath{"--fields", options.fields},
-      NamedPath{"--centers", options.centers},
-      NamedPath{"--overlay", options.overlay},
-      NamedPath{"--poses", options.poses},
-  };
-  return find_clash(inputs, outputs);
-}
-
-std::string find_output_conflict(const PoseCommandOptions& options) {
-  std::vector<NamedPath> inputs = {{"the session", options.session}};
-  for (const std::string& image : options.images) {
-    inputs.push_back({"a picture", image});
-  }
-  const std::array outputs = {
-      NamedPath{"--csv", options.csv},
-      NamedPath{"--covariance", options.covariance},
-      NamedPath{"--overlay", options.overlay},
-  };
-  return find_clash(inputs, outputs);
 }
 
 }  // namespace tubesight::board

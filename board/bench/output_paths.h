@@ -3,9 +3,6 @@
 #include <span>
 #include <string>
 
-#include "board/bench/pose_options.h"
-#include "board/bench/replay_options.h"
-
 namespace tubesight::board {
 
 /// A file and what it is to the user, for messages.
@@ -20,11 +17,5 @@ struct NamedPath {
 /// Pipes, terminals and devices may be named as often as one likes.
 [[nodiscard]] std::string find_clash(std::span<const NamedPath> inputs,
                                      std::span<const NamedPath> outputs);
-
-/// The same for the outputs of a replay; also a compressed video.
-[[nodiscard]] std::string find_output_conflict(const ReplayOptions& options);
-
-/// The same for the outputs of a pose.
-[[nodiscard]] std::string find_output_conflict(const PoseCommandOptions& options);
 
 }  // namespace tubesight::board

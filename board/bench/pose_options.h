@@ -27,4 +27,8 @@ struct PoseCommandOptions {
   core::picture::EdgeMethod edge = core::picture::EdgeMethod::kBlurredStep;
 };
 
+/// Says in one line why the outputs of a pose cannot go where they are told to, as find_clash()
+/// does. Empty when they can.
+[[nodiscard]] std::string find_output_conflict(const PoseCommandOptions& options);
+
 }  // namespace tubesight::board

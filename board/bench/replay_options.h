@@ -20,4 +20,8 @@ struct ReplayOptions {
   ScalarChoice scalar = ScalarChoice::kFixed;
 };
 
+/// Says in one line why the outputs of a replay cannot go where they are told to, as find_clash()
+/// does; also a compressed video. Empty when they can.
+[[nodiscard]] std::string find_output_conflict(const ReplayOptions& options);
+
 }  // namespace tubesight::board

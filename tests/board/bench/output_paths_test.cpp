@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "board/bench/pose_options.h"
+#include "board/bench/replay_options.h"
 #include "tests/support/temporary_folder.h"
 
 namespace tubesight::board {
