@@ -8,14 +8,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "board/bench/campaign_command.h"
-#include "board/bench/campaign_options.h"
-#include "board/bench/pose_command.h"
-#include "board/bench/pose_options.h"
-#include "board/bench/replay_command.h"
-#include "board/bench/replay_options.h"
-#include "board/bench/simulate_command.h"
-#include "board/bench/simulate_options.h"
+#include "board/bench/campaign/campaign_command.h"
+#include "board/bench/campaign/campaign_options.h"
+#include "board/bench/pose/pose_command.h"
+#include "board/bench/pose/pose_options.h"
+#include "board/bench/replay/replay_command.h"
+#include "board/bench/replay/replay_options.h"
+#include "board/bench/simulate/simulate_command.h"
+#include "board/bench/simulate/simulate_options.h"
 
 namespace tubesight::board {
 namespace {

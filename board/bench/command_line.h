@@ -1,6 +1,6 @@
 #pragma once
 
-#include "board/bench/exit_status.h"
+#include "board/bench/output/exit_status.h"
 
 namespace tubesight::board {
 

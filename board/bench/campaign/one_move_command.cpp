@@ -1,0 +1,133 @@
+#include "board/bench/campaign/one_move_command.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "board/bench/campaign/move_reducer.h"
+#include "board/bench/campaign/move_run.h"
+#include "board/bench/campaign/random_move.h"
+#include "board/bench/campaign/scenario_text.h"
+#include "board/bench/simulate/scenario_file.h"
+#include "drivers/files/atomic_file.h"
+#include "drivers/files/csv_reader.h"
+#include "drivers/simulated/simulated_world.h"
+
+namespace tubesight::board::campaign {
+namespace {
+
+/// "SEED:MOVE", both from 0.
+bool parse_move(std::string_view text, std::int64_t& seed, std::int64_t& move) {
+  const std::size_t colon = text.find(':');
+  return colon != std::string_view::npos && drivers::parse_whole(text.substr(0, colon), seed) &&
+         drivers::parse_whole(text.substr(colon + 1), move) && seed >= 0 && move >= 0;
+}
+
+void print(const Counts& counts) {
+  for (std::size_t i = 0; i < kCounts; ++i) {
+    const auto count = static_cast<Count>(i);
+    if (counts[count] != 0) {
+      std::printf("  %-20s %lld\n", std::string(name_of(count)).c_str(),
+                  static_cast<long long>(counts[count]));
+    }
+  }
+}
+
+void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
+
+/// Runs, reduces and writes one move.
+class OneMove {
+ public:
+  OneMove(const CampaignOptions& options, std::uint64_t seed, std::int64_t move)
+      : options_(options), seed_(seed), move_(move) {}
+
+  ExitStatus run() {
+    // A place that cannot be written to is found out now, not after the reduction.
+    if (!file_.open(options_.out)) {
+      tell(file_.message());
+      return ExitStatus::kWrongInput;
+    }
+    MoveMaker().make(seed_, move_, *scenario_);
+    const std::string stratum = name_of(stratum_at(stratum_of_move(move_)));
+    const MoveResult result = run(*scenario_, false);
+    if (options_.reduce && result.counts[Count::kWrongTube] == 0) {
+      tell("--reduce: move " + options_.one_move +
+           " vouches for no wrong tube, expected one that does");
+      return ExitStatus::kWrongInput;
+    }
+    std::printf("move %s, %s\n", options_.one_move.c_str(), stratum.c_str());
+    print(result.counts);
+    if (options_.reduce) {
+      reduce(*scenario_, [this](const drivers::Scenario& scenario) {
+        return run(scenario, true).counts[Count::kWrongTube] > 0;
+      });
+      std::printf("reduced to %zu path parts, %zu faults and %.3f s\n", scenario_->path.size(),
+                  scenario_->faults.size(), scenario_->video.length_s);
+    }
+    return write(stratum);
+  }
+
+ private:
+  MoveResult run(const drivers::Scenario& scenario, bool stop_at_wrong) {
+    return runner_.run(scenario, {!options_.without_margin_check, stop_at_wrong});
+  }
+
+  // Faults of whole frames are drawn between two now and then; a scenario file may hold none that
+  // does nothing.
+  void drop_idle_faults() {
+    const auto world = std::make_unique<drivers::SimulatedWorld>();
+    if (world->configure(*scenario_)) {
+      std::erase_if(scenario_->faults,
+                    [&](const drivers::Fault& fault) { return !world->hits(fault); });
+    }
+  }
+
+  // Reads the file back: what it says must be what was run.
+  ExitStatus write(const std::string& stratum) {
+    drop_idle_faults();
+    const std::string title = "Campaign move " + options_.one_move + " (" + stratum + ")";
+    if (!file_.write(std::string_view(scenario_text(*scenario_, title))) || !file_.commit()) {
+      tell(file_.message());
+      return ExitStatus::kJobFailed;
+    }
+    const auto read = std::make_unique<ScenarioFile>();
+    drivers::Messages messages;
+    if (!load_scenario(options_.out, {}, *read, messages)) {
+      for (const std::string& message : messages) {
+        tell(message);
+      }
+      return ExitStatus::kJobFailed;
+    }
+    if (run(read->scenario, false).counts != run(*scenario_, false).counts) {
+      tell(options_.out +
+           ": shows something else than the move, by a rounding in the last bit; "
+           "expected the same counts");
+      return ExitStatus::kJobFailed;
+    }
+    std::printf("%s: shows the same\n", options_.out.c_str());
+    return ExitStatus::kDone;
+  }
+
+  const CampaignOptions& options_;
+  std::uint64_t seed_;
+  std::int64_t move_;
+  MoveRunner runner_;
+  drivers::AtomicFile file_;
+  std::unique_ptr<drivers::Scenario> scenario_ = std::make_unique<drivers::Scenario>();
+};
+
+}  // namespace
+
+ExitStatus run_one_move(const CampaignOptions& options) {
+  std::int64_t seed = 0;
+  std::int64_t move = 0;
+  if (!parse_move(options.one_move, seed, move)) {
+    tell("--replay-move " + drivers::printable(options.one_move) +
+         ": expected SEED:MOVE, two whole numbers from 0");
+    return ExitStatus::kWrongInput;
+  }
+  return OneMove(options, static_cast<std::uint64_t>(seed), move).run();
+}
+
+}  // namespace tubesight::board::campaign

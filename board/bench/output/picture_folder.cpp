@@ -1,0 +1,120 @@
+#include "board/bench/output/picture_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include <unistd.h>
+
+#include "drivers/files/png_writer.h"
+
+namespace tubesight::board {
+namespace {
+
+namespace fs = std::filesystem;
+using core::Error;
+using core::Result;
+using core::Unexpected;
+
+std::string picture_name(std::int64_t field) {
+  std::array<char, 40> name{};
+  std::snprintf(name.data(), name.size(), "field-%06lld.png", static_cast<long long>(field));
+  return name.data();
+}
+
+bool is_picture_name(std::string_view name) {
+  constexpr std::string_view kBefore = "field-";
+  constexpr std::string_view kAfter = ".png";
+  constexpr std::size_t kFewestDigits = 6;
+  if (!name.starts_with(kBefore) || !name.ends_with(kAfter) ||
+      name.size() < kBefore.size() + kFewestDigits + kAfter.size()) {
+    return false;
+  }
+  name.remove_prefix(kBefore.size());
+  name.remove_suffix(kAfter.size());
+  return std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The pictures in a folder; empty and `why` set when it cannot be read.
+std::vector<fs::path> list_pictures(const std::string& folder, std::error_code& why) {
+  std::vector<fs::path> pictures;
+  for (fs::directory_iterator entry(folder, why), end; !why && entry != end; entry.increment(why)) {
+    if (is_picture_name(entry->path().filename().string())) {
+      pictures.push_back(entry->path());
+    }
+  }
+  return pictures;
+}
+
+}  // namespace
+
+PictureFolder::~PictureFolder() {
+  std::error_code ignored;
+  if (!collecting_.empty()) {
+    fs::remove_all(collecting_, ignored);
+  }
+  if (made_folder_) {
+    fs::remove(folder_, ignored);  // only when empty
+  }
+}
+
+Result<void> PictureFolder::open(const drivers::Y4mHeader&, bool) {
+  std::error_code why;
+  const bool was_there = fs::is_directory(folder_, why);
+  fs::create_directories(folder_, why);
+  if (why) {
+    return fail("cannot be made a folder", why);
+  }
+  made_folder_ = !was_there;
+  const std::string collecting =
+      (fs::path(folder_) / ("pictures." + std::to_string(::getpid()) + ".part")).string();
+  fs::create_directory(collecting, why);
+  if (why) {
+    return fail("cannot be written", why);
+  }
+  collecting_ = collecting;
+  return {};
+}
+
+Result<void> PictureFolder::add(std::int64_t field, const core::RgbImageView& picture) {
+  return drivers::write_png((fs::path(collecting_) / picture_name(field)).string(), picture,
+                            message_);
+}
+
+Result<void> PictureFolder::commit() {
+  std::error_code why;
+  for (const fs::path& old : list_pictures(folder_, why)) {
+    fs::remove(old, why);
+    if (why) {
+      return fail("a picture of an earlier replay cannot be removed", why);
+    }
+  }
+  if (!why) {
+    for (const fs::path& picture : list_pictures(collecting_, why)) {
+      fs::rename(picture, fs::path(folder_) / picture.filename(), why);
+      if (why) {
+        return fail("a picture cannot be put in its place", why);
+      }
+    }
+  }
+  if (why) {
+    return fail("cannot be read", why);
+  }
+  fs::remove(collecting_, why);
+  if (why) {
+    return fail("cannot be tidied up", why);
+  }
+  collecting_.clear();
+  made_folder_ = false;
+  return {};
+}
+
+Result<void> PictureFolder::fail(const char* what, const std::error_code& why) {
+  message_ = folder_ + ": " + what + ": " + why.message();
+  return Unexpected(Error::kIo);
+}
+
+}  // namespace tubesight::board

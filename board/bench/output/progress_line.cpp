@@ -1,0 +1,48 @@
+#include "board/bench/output/progress_line.h"
+
+#include <algorithm>
+#include <array>
+
+#include <unistd.h>
+
+namespace tubesight::board {
+namespace {
+
+constexpr std::chrono::milliseconds kBeforeFirst{500};
+constexpr std::chrono::milliseconds kBetween{250};
+
+}  // namespace
+
+void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time) {
+  if (!shown_) {
+    return;
+  }
+  if (!next_) {
+    next_ = now + kBeforeFirst;
+  }
+  if (now < *next_) {
+    return;
+  }
+  next_ = now + kBetween;
+  std::array<char, 80> text{};
+  const double seconds = std::chrono::duration<double>(time).count();
+  std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
+                static_cast<long long>(fields), seconds);
+  // Padded to what stood there, so that a shorter text leaves nothing of a longer one.
+  const int count = std::fprintf(stream_, "\r%-*s",
+                                 static_cast<int>(std::min<std::size_t>(width_, 79)), text.data());
+  std::fflush(stream_);
+  width_ = count > 1 ? static_cast<std::size_t>(count - 1) : 0;
+}
+
+void ProgressLine::erase() {
+  if (width_ > 0) {
+    std::fprintf(stream_, "\r%*s\r", static_cast<int>(width_), "");
+    std::fflush(stream_);
+    width_ = 0;
+  }
+}
+
+bool standard_error_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+}  // namespace tubesight::board

@@ -1,0 +1,82 @@
+#include "board/bench/pose/still_reader.h"
+
+#include "drivers/files/csv_reader.h"
+
+namespace tubesight::board {
+namespace {
+
+// An hour of video: what a range makes is held in memory.
+constexpr std::int64_t kLastFrame = 99'999;
+
+bool parse_frame(std::string_view text, std::int64_t& frame) {
+  return drivers::parse_whole(text, frame) && frame >= 0 && frame <= kLastFrame;
+}
+
+}  // namespace
+
+std::string Still::name() const {
+  return frame < 0 ? file : file + " frame " + std::to_string(frame);
+}
+
+bool parse_frames(std::string_view text, FrameRange& frames) {
+  const std::size_t dash = text.find('-');
+  if (dash == std::string_view::npos) {
+    return parse_frame(text, frames.first) && parse_frame(text, frames.last);
+  }
+  return parse_frame(text.substr(0, dash), frames.first) &&
+         parse_frame(text.substr(dash + 1), frames.last) && frames.first <= frames.last;
+}
+
+bool is_recording(std::string_view file) {
+  return file.ends_with(".y4m") || file.ends_with(".y4m.xz");
+}
+
+std::vector<Still> stills_of(std::span<const std::string> files, FrameRange frames) {
+  std::vector<Still> stills;
+  for (const std::string& file : files) {
+    if (!is_recording(file)) {
+      stills.push_back({file});
+      continue;
+    }
+    for (std::int64_t frame = frames.first; frame <= frames.last; ++frame) {
+      stills.push_back({file, frame});
+    }
+  }
+  return stills;
+}
+
+core::Result<void> StillReader::read(const Still& still, drivers::GreyPicture& picture,
+                                     std::string& message) {
+  return still.frame < 0 ? drivers::read_grey_picture(still.file, picture, message)
+                         : read_frame(still, picture, message);
+}
+
+core::Result<void> StillReader::read_frame(const Still& still, drivers::GreyPicture& picture,
+                                           std::string& message) {
+  const auto fail = [&](core::Error error) {
+    open_.clear();
+    message = error == core::Error::kEndOfData
+                  ? still.file + ": has no frame " + std::to_string(still.frame) +
+                        ", expected --frames within its " + std::to_string(reader_.frames_read()) +
+                        ", counted from 0"
+                  : reader_.message();
+    return core::Unexpected(error == core::Error::kEndOfData ? core::Error::kOutOfRange : error);
+  };
+  if (open_ != still.file || reader_.frames_read() > still.frame) {
+    if (const auto opened = reader_.open(still.file); !opened) {
+      return fail(opened.error());
+    }
+    open_ = still.file;
+  }
+  picture.width_px = reader_.header().width_px;
+  picture.height_px = reader_.header().height_px;
+  picture.pixels.resize(static_cast<std::size_t>(reader_.header().luma_bytes()));
+  while (reader_.frames_read() <= still.frame) {
+    if (const auto frame = reader_.read_frame(picture.pixels); !frame) {
+      return fail(frame.error());
+    }
+  }
+  return {};
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,195 @@
+#include "board/bench/replay/replay_command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "board/bench/output/output_paths.h"
+#include "board/bench/output/overlay_sink.h"
+#include "board/bench/output/pose_rows.h"
+#include "board/bench/output/progress_line.h"
+#include "board/bench/output/result_files.h"
+#include "board/bench/replay/replay_job.h"
+#include "board/bench/replay/replay_statistics.h"
+#include "board/bench/replay/summary_text.h"
+#include "board/box/pose_service.h"
+#include "drivers/files/atomic_file.h"
+#include "drivers/files/messages.h"
+#include "drivers/replay/companion.h"
+#include "drivers/replay/replay_events.h"
+#include "drivers/replay/replay_frame_grabber.h"
+#include "drivers/settings/session_checks.h"
+#include "drivers/settings/session_settings.h"
+
+namespace tubesight::board {
+namespace {
+
+void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
+
+void tell(const drivers::Messages& messages) {
+  for (const std::string& message : messages) {
+    tell(message);
+  }
+}
+
+/// The files of one replay and what is written from them.
+class Replay {
+ public:
+  explicit Replay(const ReplayOptions& options)
+      : options_(options), progress_(stderr, standard_error_is_terminal()) {}
+
+  ExitStatus run() {
+    if (!open_inputs() || !open_outputs()) {
+      return ExitStatus::kWrongInput;
+    }
+    const ReplayEnd end = replay();
+    progress_.erase();
+    tell(end.messages);
+    if (end.status != ExitStatus::kDone) {
+      return end.status;
+    }
+    tell_events_left();
+    tell_request_left();
+    if (!commit()) {
+      return ExitStatus::kJobFailed;
+    }
+    return summarise(end.cut_short);
+  }
+
+ private:
+  bool open_inputs() {
+    drivers::Messages messages;
+    bool good = static_cast<bool>(drivers::load_session_settings(
+        options_.session, drivers::kReplayNeeds, *session_file_, messages));
+    // A recording can be judged only against sound settings, its events without any.
+    if (good) {
+      grabber_ = std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera,
+                                                               options_.recording);
+      good = static_cast<bool>(grabber_->start());
+      messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
+    }
+    good = good && fields_come_often_enough(messages);
+    good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
+    tell(messages);
+    return good;
+  }
+
+  /// A recording that no track can follow whatever it shows is refused before anything is written.
+  [[nodiscard]] bool fields_come_often_enough(drivers::Messages& messages) const {
+    const core::FieldTime span = grabber_->shortest_span();
+    if (span <= core::FieldTime{0}) {
+      return true;
+    }
+    const core::SessionSettings& settings = session_file_->settings;
+    const std::string why = drivers::why_fields_too_seldom(
+        settings.motion, settings.tubesheet, std::chrono::duration<double>(span).count());
+    if (!why.empty()) {
+      messages.push_back(options_.session + ": motion: " + options_.recording + ": " + why);
+    }
+    return why.empty();
+  }
+
+  bool open_outputs() {
+    if (const std::string conflict = find_output_conflict(options_); !conflict.empty()) {
+      tell(conflict);
+      return false;
+    }
+    if (!results_.open(options_.fields, options_.centers)) {
+      tell(results_.message());
+      return false;
+    }
+    if (!options_.poses.empty() &&
+        (!poses_file_.open(options_.poses) ||
+         !poses_file_.write(std::string_view(std::string(kPoseHeader) + '\n')))) {
+      tell(poses_file_.message());
+      return false;
+    }
+    if (!options_.overlay.empty()) {
+      overlay_ = make_overlay_sink(options_.overlay);
+      if (!overlay_->open(grabber_->header(), grabber_->interlaced())) {
+        tell(overlay_->message());
+        return false;
+      }
+    }
+    return true;
+  }
+
+  ReplayEnd replay() {
+    const ReplayInputs inputs{options_.session, options_.recording, session_file_->settings,
+                              *grabber_, events_};
+    const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
+                                poses_,   pose_rows_,     statistics_,
+                                progress_};
+    switch (options_.scalar) {
+      case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
+      case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
+      case ScalarChoice::kFixed: break;
+    }
+    return replay_fields<core::FixedPoint>(inputs, outputs);
+  }
+
+  void tell_events_left() {
+    if (events_.left() > 0) {
+      tell(drivers::companion_path(options_.recording, ".events.csv") + ": the last " +
+           std::to_string(events_.left()) + " of " + std::to_string(events_.size()) +
+           " events are after the recording's end and were left out");
+    }
+  }
+
+  void tell_request_left() {
+    if (poses_.unanswered() >= 0) {
+      tell(options_.recording + ": the pose request before field " +
+           std::to_string(poses_.unanswered()) +
+           " got no answer: the recording ended before it was ready");
+    }
+  }
+
+  bool commit() {
+    if (overlay_ != nullptr && !overlay_->commit()) {
+      tell(overlay_->message());
+      return false;
+    }
+    if (!results_.commit()) {
+      tell(results_.message());
+      return false;
+    }
+    if (!options_.poses.empty() &&
+        (!poses_file_.write(std::string_view(pose_rows_)) || !poses_file_.commit())) {
+      tell(poses_file_.message());
+      return false;
+    }
+    return true;
+  }
+
+  ExitStatus summarise(bool cut_short) {
+    const drivers::Y4mHeader& header = grabber_->header();
+    const std::string text = summary_text(
+        {options_.recording, header.width_px, header.height_px, grabber_->interlaced(), cut_short},
+        statistics_);
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
+      std::perror("standard output: cannot be written");
+      return ExitStatus::kJobFailed;
+    }
+    return ExitStatus::kDone;
+  }
+
+  ReplayOptions options_;
+  std::unique_ptr<drivers::SessionFile> session_file_ = std::make_unique<drivers::SessionFile>();
+  std::unique_ptr<drivers::ReplayFrameGrabber> grabber_;
+  drivers::ReplayEvents events_;
+  ResultFiles results_;
+  std::unique_ptr<OverlaySink> overlay_;
+  PoseService poses_;
+  std::string pose_rows_;
+  drivers::AtomicFile poses_file_;
+  ReplayStatistics statistics_;
+  ProgressLine progress_;
+};
+
+}  // namespace
+
+ExitStatus run_replay(const ReplayOptions& options) { return Replay(options).run(); }
+
+}  // namespace tubesight::board

@@ -1,0 +1,91 @@
+#include "board/bench/output/progress_line.h"
+
+#include <array>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace tubesight::board {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A stream whose bytes can be read back.
+class Stream {
+ public:
+  Stream() : file_(std::tmpfile()) {}
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+  ~Stream() { std::fclose(file_); }
+
+  [[nodiscard]] std::FILE* file() const { return file_; }
+  [[nodiscard]] std::string text() const {
+    std::fflush(file_);
+    const long end = std::ftell(file_);
+    std::rewind(file_);
+    std::array<char, 1000> bytes{};
+    const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file_);
+    std::fseek(file_, end, SEEK_SET);
+    return {bytes.data(), count};
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+constexpr ProgressLine::Clock::time_point kStart{seconds(1000)};
+
+TEST(ProgressLine, WritesNothingWhenItIsNotShown) {
+  const Stream stream;
+  {
+    ProgressLine line(stream.file(), false);
+    line.update(kStart, 1, seconds(0));
+    line.update(kStart + seconds(10), 500, seconds(10));
+  }
+
+  EXPECT_EQ(stream.text(), "");
+}
+
+TEST(ProgressLine, WritesNothingForAShortJob) {
+  const Stream stream;
+  {
+    ProgressLine line(stream.file(), true);
+    line.update(kStart, 1, seconds(0));
+    line.update(kStart + milliseconds(499), 500, seconds(10));
+  }
+
+  EXPECT_EQ(stream.text(), "");
+}
+
+TEST(ProgressLine, WritesFourTimesASecondAtMost) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, 1, seconds(0));
+  line.update(kStart + milliseconds(500), 9, milliseconds(1500));
+  line.update(kStart + milliseconds(749), 10, milliseconds(1600));
+  line.update(kStart + milliseconds(750), 100, milliseconds(16000));
+
+  EXPECT_EQ(stream.text(),
+            "\r9 fields, 1.5 s of the recording"
+            "\r100 fields, 16.0 s of the recording");
+}
+
+TEST(ProgressLine, IsErasedToItsLastCharacter) {
+  const Stream stream;
+  {
+    ProgressLine line(stream.file(), true);
+    line.update(kStart, 1, seconds(0));
+    line.update(kStart + seconds(1), 100, seconds(16));
+    line.update(kStart + seconds(2), 9, seconds(1));  // shorter: padded to cover the longer one
+  }
+
+  const std::string first = "100 fields, 16.0 s of the recording";
+  const std::string second = "9 fields, 1.0 s of the recording   ";
+  ASSERT_EQ(first.size(), second.size());
+  EXPECT_EQ(stream.text(),
+            "\r" + first + "\r" + second + "\r" + std::string(first.size(), ' ') + "\r");
+}
+
+}  // namespace
+}  // namespace tubesight::board
