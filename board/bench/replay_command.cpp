@@ -14,6 +14,7 @@
 #include "board/bench/replay_statistics.h"
 #include "board/bench/result_files.h"
 #include "board/bench/summary_text.h"
+#include "board/bench/text/text_output.h"
 #include "board/box/pose_service.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
@@ -25,14 +26,6 @@
 
 namespace tubesight::board {
 namespace {
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
-
-void tell(const drivers::Messages& messages) {
-  for (const std::string& message : messages) {
-    tell(message);
-  }
-}
 
 /// The files of one replay and what is written from them.
 class Replay {
@@ -168,8 +161,7 @@ class Replay {
     const std::string text = summary_text(
         {options_.recording, header.width_px, header.height_px, grabber_->interlaced(), cut_short},
         statistics_);
-    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-      std::perror("standard output: cannot be written");
+    if (!write_out(text)) {
       return ExitStatus::kJobFailed;
     }
     return ExitStatus::kDone;
