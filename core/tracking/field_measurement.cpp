@@ -15,11 +15,6 @@
 namespace tubesight::core::tracking {
 namespace {
 
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
 // A rim's bounding box in whole pixels.
 struct Box {
   std::int32_t u = 0;

@@ -10,11 +10,6 @@
 namespace tubesight::core::tracking {
 namespace {
 
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
 // What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
 template <typename M>
 M systematic_mm() {
