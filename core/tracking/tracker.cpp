@@ -93,8 +93,7 @@ typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
   using M = Mm<S>;
   Outcome outcome;
   outcome.pose = predicted;
-  const auto light = judge_light(field, model_->window_left_px, model_->window_top_px,
-                                 model_->window_right_px, model_->window_bottom_px);
+  const auto light = judge_light(field, model_->window);
   if (light != PictureLight::kUsable) {
     outcome.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
     return outcome;
