@@ -25,6 +25,7 @@ test=(
   clang-tidy            # preset bench-tidy
   valgrind              # callgrind: instructions per field
   python3               # tests/checks/
+  groff-base            # check manual: the manual page is rendered
   g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
   qemu-user-static      # runs its tests
 )

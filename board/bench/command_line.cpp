@@ -16,6 +16,7 @@
 #include "board/bench/replay/replay_options.h"
 #include "board/bench/simulate/simulate_command.h"
 #include "board/bench/simulate/simulate_options.h"
+#include "board/box/version.h"
 
 namespace tubesight::board {
 namespace {
@@ -229,7 +230,8 @@ ExitStatus answer(const CLI::App& app, const CLI::ParseError& problem) {
 
 ExitStatus run_command_line(int argc, const char* const* argv) {
   CLI::App app("Tubesight, the vision box of a servicing robot for tubesheets", "tubesight");
-  app.set_version_flag("--version", "tubesight " TUBESIGHT_VERSION);
+  app.set_version_flag("--version", version_text("tubesight"),
+                       "Print version, commit and arithmetic, and exit");
   app.require_subcommand(1);
   ReplayOptions options;
   std::string scalar = "fixed";
@@ -249,7 +251,7 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
     return run_pose(pose_options);
   }
   if (campaign->parsed()) {
-    return run_campaign(campaign_options, TUBESIGHT_VERSION);
+    return run_campaign(campaign_options, program_version());
   }
   if (simulate->parsed()) {
     return run_simulate(simulate_options);

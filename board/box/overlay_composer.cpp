@@ -17,7 +17,7 @@ core::ImagePoint image_point(const std::array<double, 2>& px) {
 
 OverlayComposer::OverlayComposer(const core::SessionSettings& settings) {
   const auto& window = settings.start.window_px;
-  input_.window = core::overlay::PixelBox{window[0], window[1], window[2], window[3]};
+  input_.window = core::PixelBox{window[0], window[1], window[2], window[3]};
   input_.optimum_px = image_point(settings.start.optimum_px);
   const std::int32_t width_px = settings.camera.width_px;
   const std::int32_t height_px = settings.camera.height_px;

@@ -26,6 +26,17 @@ struct ImageView {
   }
 };
 
+/// A box of full-frame pixels, all four edges belonging to it; empty when right < left or
+/// bottom < top.
+struct PixelBox {
+  std::int32_t left = 0;
+  std::int32_t top = 0;
+  std::int32_t right = 0;
+  std::int32_t bottom = 0;
+
+  friend constexpr bool operator==(const PixelBox&, const PixelBox&) = default;
+};
+
 /// A full-frame 8-bit RGB picture (three bytes a pixel) to draw into, owned by the caller.
 struct RgbImageView {
   std::uint8_t* pixels = nullptr;  ///< top-left pixel, red first

@@ -101,6 +101,12 @@ template <typename T>
   }
 }
 
+/// The nearest whole number, ties away from zero.
+template <typename T>
+[[nodiscard]] constexpr std::int32_t rounded(T value) {
+  return to_scaled(value, 0);
+}
+
 template <typename T>
 [[nodiscard]] constexpr T absolute(T a) {
   return a < T{} ? -a : a;

@@ -12,11 +12,13 @@ namespace tubesight::core {
 
 /// A list of at most Capacity elements held inside the object; nothing is allocated.
 ///
-/// For trivially copyable T, so that copies are plain bytes. Running full is a documented result:
-/// try_push_back says false and the list stays as it was.
+/// Trivially copyable for a trivially copyable T; other T are held too (Eigen's matrices copy by
+/// functions of their own), as long as nothing is to be done at their end: elements beyond the size
+/// stay alive. Running full is a documented result: try_push_back says false and the list stays as
+/// it was.
 template <typename T, std::int32_t Capacity>
 class StaticVector {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(std::is_trivially_destructible_v<T>);
   static_assert(Capacity > 0);
 
  public:

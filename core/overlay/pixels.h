@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/image_view.h"
 #include "core/base/sighting.h"
 
 namespace tubesight::core::overlay {
@@ -21,14 +22,6 @@ struct PixelPoint {
   std::int32_t v_px = 0;
 
   friend constexpr bool operator==(const PixelPoint&, const PixelPoint&) = default;
-};
-
-/// A box of pixels, all four edges belonging to it; empty when right < left or bottom < top.
-struct PixelBox {
-  std::int32_t left = 0;
-  std::int32_t top = 0;
-  std::int32_t right = 0;
-  std::int32_t bottom = 0;
 };
 
 /// The pixel nearest to a point, at most half a pixel away; halves go right and down.

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/base/sighting.h"
-#include "core/pose/fixed_list.h"
+#include "core/base/static_vector.h"
 
 namespace tubesight::core::pose {
 
@@ -17,6 +17,6 @@ struct PointPair {
 };
 
 /// One pair a tube-end.
-using PointPairList = FixedList<PointPair, kMaxTubesInView>;
+using PointPairList = StaticVector<PointPair, kMaxTubesInView>;
 
 }  // namespace tubesight::core::pose

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
+#include "core/base/static_vector.h"
 #include "core/picture/rim.h"
-#include "core/pose/fixed_list.h"
 #include "core/pose/planar_pose.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/point_pair.h"
@@ -15,9 +15,9 @@ namespace tubesight::core::pose {
 
 /// Closed-form poses of one picture, the best first.
 struct PoseSeeds {
-  FixedList<SeenCircle, kMaxTubesInView> circles;  ///< the ellipses, one a pair
-  PointPairList pairs;                             ///< ellipses' centres; sigma of 0.1 px
-  FixedList<PoseCandidate, 12> candidates;
+  StaticVector<SeenCircle, kMaxTubesInView> circles;  ///< the ellipses, one a pair
+  PointPairList pairs;                                ///< ellipses' centres; sigma of 0.1 px
+  StaticVector<PoseCandidate, 12> candidates;
 };
 
 /// Proposes poses from the centres of the rims' ellipses as they are, which is right to some tenths

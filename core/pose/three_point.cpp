@@ -72,7 +72,7 @@ math::Quartic quartic_of(const Triangle& t) {
           (q - 1.0) * (q - 1.0) - 4.0 * c2 * ca * ca};
 }
 
-void add(const Triangle& triangle, RayLengths x, FixedList<RayLengths, 4>& solutions) {
+void add(const Triangle& triangle, RayLengths x, StaticVector<RayLengths, 4>& solutions) {
   if (!polish(triangle, x)) {
     return;
   }
@@ -86,8 +86,8 @@ void add(const Triangle& triangle, RayLengths x, FixedList<RayLengths, 4>& solut
 
 }  // namespace
 
-FixedList<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 3>& rays,
-                                           const std::array<double, 3>& sides_mm) {
+StaticVector<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 3>& rays,
+                                              const std::array<double, 3>& sides_mm) {
   Triangle triangle;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<std::size_t>(kSides[i][0]);
@@ -95,7 +95,7 @@ FixedList<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 3>&
     triangle.side2[i] = sides_mm[i] * sides_mm[i];
     triangle.cosine[i] = rays[a].dot(rays[b]);
   }
-  FixedList<RayLengths, 4> solutions;
+  StaticVector<RayLengths, 4> solutions;
   // Lengths differ a thousandfold at most for anything a camera sees.
   for (const double v : math::real_roots(quartic_of(triangle), 1e-3, 1e3)) {
     const double span2 = 1.0 + v * v - 2.0 * v * triangle.cosine[1];
@@ -124,14 +124,14 @@ Eigen::Matrix3d triangle_axes(const std::array<Eigen::Vector3d, 3>& points) {
   return axes;
 }
 
-FixedList<CameraSheet, 4> solve_three_points(const std::array<PointPair, 3>& pairs) {
+StaticVector<CameraSheet, 4> solve_three_points(const std::array<PointPair, 3>& pairs) {
   std::array<Eigen::Vector3d, 3> rays;
   std::array<Eigen::Vector3d, 3> object;
   for (std::size_t i = 0; i < 3; ++i) {
     rays[i] = pairs[i].plane.homogeneous().normalized();
     object[i] = pairs[i].object_mm;
   }
-  FixedList<CameraSheet, 4> poses;
+  StaticVector<CameraSheet, 4> poses;
   const Eigen::Vector3d base = object[2] - object[1];
   const Eigen::Vector3d side = object[0] - object[1];
   if (base.cross(side).norm() <= 1e-6 * base.norm() * side.norm()) {

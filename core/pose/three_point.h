@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "core/base/static_vector.h"
 #include "core/base/transform.h"
-#include "core/pose/fixed_list.h"
 #include "core/pose/point_pair.h"
 
 namespace tubesight::core::pose {
@@ -16,15 +16,15 @@ using RayLengths = Eigen::Vector3d;
 /// [Haralick1991, Grunert's solution] and polished by Newton's method on the three equations.
 ///
 /// `rays`: unit vectors; `sides_mm`: d_01, d_02, d_12. Four solutions at most, usually two.
-[[nodiscard]] FixedList<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 3>& rays,
-                                                         const std::array<double, 3>& sides_mm);
+[[nodiscard]] StaticVector<RayLengths, 4> solve_ray_lengths(
+    const std::array<Eigen::Vector3d, 3>& rays, const std::array<double, 3>& sides_mm);
 
 /// The triangle's own frame: x along side 1-2, z along side 1-2 times side 1-0
 /// [Fallon eq. 5.25-5.28]. For points that are not on one line.
 [[nodiscard]] Eigen::Matrix3d triangle_axes(const std::array<Eigen::Vector3d, 3>& points);
 
 /// The poses of three object points: all real solutions. None for points on one line.
-[[nodiscard]] FixedList<Transform<frames::Camera, frames::Sheet>, 4> solve_three_points(
+[[nodiscard]] StaticVector<Transform<frames::Camera, frames::Sheet>, 4> solve_three_points(
     const std::array<PointPair, 3>& pairs);
 
 }  // namespace tubesight::core::pose

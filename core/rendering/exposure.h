@@ -17,13 +17,9 @@ struct GreyImageView {
   std::int32_t stride_px = 0;  ///< from one line to the next, at least width_px
 };
 
-/// Pixels from (left, top) to (right, bottom), inclusive, of the full frame.
-struct PixelWindow {
-  std::int32_t left = 0;
-  std::int32_t top = 0;
-  std::int32_t right = std::numeric_limits<std::int32_t>::max();
-  std::int32_t bottom = std::numeric_limits<std::int32_t>::max();
-};
+/// The whole picture, of whatever size.
+inline constexpr PixelBox kWholePicture = {0, 0, std::numeric_limits<std::int32_t>::max(),
+                                           std::numeric_limits<std::int32_t>::max()};
 
 /// Dead lamps of the lighthouse: bit n stands for the lamp at n * 30 degrees from the tool's x.
 inline constexpr std::int32_t kLighthouseLamps = 12;
@@ -43,7 +39,7 @@ struct Exposure {
   double extra_noise = 0.0;      ///< faults: further noise, sigma in grey levels
   Parity parity = Parity::kProgressive;  ///< the lines to draw
   std::uint64_t noise_seed = 0;          ///< the same seed: the same noise
-  PixelWindow window;                    ///< what lies outside is left as it is
+  PixelBox window = kWholePicture;       ///< what lies outside is left as it is
 };
 
 /// The share of an exposure that a lamp dimmed by pulses is lit, as Exposure::lamp wants it.

@@ -21,17 +21,17 @@ struct Block {
 template <Scalar S>
 Block<S> block_in_window(const TrackingModel<S>& model, const SheetPose<S>& pose) {
   const auto& lattice = model.lattice.parameters();
-  const std::int32_t middle = (model.window_left_px + model.window_right_px) / 2;
-  const std::int32_t half = (model.window_top_px + model.window_bottom_px) / 2;
+  const std::int32_t middle = (model.window.left + model.window.right) / 2;
+  const std::int32_t half = (model.window.top + model.window.bottom) / 2;
   const std::array<std::array<std::int32_t, 2>, 8> border{
-      {{model.window_left_px, model.window_top_px},
-       {middle, model.window_top_px},
-       {model.window_right_px, model.window_top_px},
-       {model.window_left_px, half},
-       {model.window_right_px, half},
-       {model.window_left_px, model.window_bottom_px},
-       {middle, model.window_bottom_px},
-       {model.window_right_px, model.window_bottom_px}}};
+      {{model.window.left, model.window.top},
+       {middle, model.window.top},
+       {model.window.right, model.window.top},
+       {model.window.left, half},
+       {model.window.right, half},
+       {model.window.left, model.window.bottom},
+       {middle, model.window.bottom},
+       {model.window.right, model.window.bottom}}};
   Block<S> block;
   bool first = true;
   constexpr std::int32_t kMost = 31;
@@ -186,8 +186,8 @@ void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
       }
       const std::int32_t u = to_scaled(pixel->x, 0);
       const std::int32_t v = to_scaled(pixel->y, 0);
-      if (u < model.window_left_px || u > model.window_right_px || v < model.window_top_px ||
-          v > model.window_bottom_px) {
+      if (u < model.window.left || u > model.window.right || v < model.window.top ||
+          v > model.window.bottom) {
         continue;
       }
       Candidate<S> candidate;

@@ -15,11 +15,6 @@
 namespace tubesight::core::tracking {
 namespace {
 
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
 // A rim's bounding box in whole pixels.
 struct Box {
   std::int32_t u = 0;
@@ -43,8 +38,8 @@ bool cut_by_window(const TrackingModel<S>& model, const Vector2<Px<S>>& center, 
   const std::int32_t reach = rounded(times(times(model.bore_radius_mm, share), px_per_mm)) - 2;
   const std::int32_t u = rounded(center.x);
   const std::int32_t v = rounded(center.y);
-  return u - reach < model.window_left_px || u + reach > model.window_right_px ||
-         v - reach < model.window_top_px || v + reach > model.window_bottom_px;
+  return u - reach < model.window.left || u + reach > model.window.right ||
+         v - reach < model.window.top || v + reach > model.window.bottom;
 }
 
 // A plug's hole is narrower than the tube-end: a wide upper edge on fillet sheets, a shadow between

@@ -14,8 +14,6 @@ enum class PictureLight : std::uint8_t {
 };
 
 /// Judges the window by 16 x 12 pixels spread over it.
-[[nodiscard]] PictureLight judge_light(const FieldView& field, std::int32_t left_px,
-                                       std::int32_t top_px, std::int32_t right_px,
-                                       std::int32_t bottom_px);
+[[nodiscard]] PictureLight judge_light(const FieldView& field, const PixelBox& window);
 
 }  // namespace tubesight::core::tracking

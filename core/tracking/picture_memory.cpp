@@ -30,19 +30,17 @@ std::uint64_t sum_of(const std::uint8_t* pixels, std::int32_t step) {
 
 }  // namespace
 
-PictureLikeness PictureMemory::look(const FieldView& field, Parity parity, std::int32_t left_px,
-                                    std::int32_t top_px, std::int32_t right_px,
-                                    std::int32_t bottom_px) {
+PictureLikeness PictureMemory::look(const FieldView& field, Parity parity, const PixelBox& window) {
   PictureLikeness likeness;
   Sums& before = sums_[static_cast<std::size_t>(parity)];
-  const std::int32_t left = std::clamp(left_px, 0, field.width_px - 1);
-  const std::int32_t width = std::clamp(right_px, left, field.width_px - 1) - left + 1;
+  const std::int32_t left = std::clamp(window.left, 0, field.width_px - 1);
+  const std::int32_t width = std::clamp(window.right, left, field.width_px - 1) - left + 1;
   if (width < kBlocks * kBlock_px) {
     return likeness;
   }
   const std::int32_t step = (width - kBlock_px) / (kBlocks - 1);
   for (std::int32_t i = 0; i < kLines; ++i) {
-    const std::int32_t v = top_px + (bottom_px - top_px) * (2 * i + 1) / (2 * kLines);
+    const std::int32_t v = window.top + (window.bottom - window.top) * (2 * i + 1) / (2 * kLines);
     const std::int32_t line =
         std::clamp((v - field.first_line) / field.line_step, 0, field.lines - 1);
     const std::uint8_t* const pixels =

@@ -26,11 +26,9 @@ class PictureMemory {
 
   void clear() { *this = {}; }
 
-  /// Compares a picture with the last of its parity and puts it in its place. The window,
-  /// inclusive, lies in the picture.
-  [[nodiscard]] PictureLikeness look(const FieldView& field, Parity parity, std::int32_t left_px,
-                                     std::int32_t top_px, std::int32_t right_px,
-                                     std::int32_t bottom_px);
+  /// Compares a picture with the last of its parity and puts it in its place. The window
+  /// lies in the picture.
+  [[nodiscard]] PictureLikeness look(const FieldView& field, Parity parity, const PixelBox& window);
 
  private:
   /// Sums of the sampled lines; 0: nothing to compare with.

@@ -71,10 +71,9 @@ std::optional<RimOutline<S>> project_rim(const TrackingModel<S>& model,
   Vector2<P> sum{};
   const auto border = [](std::int32_t px) { return from_scaled<P>(px, 0); };
   constexpr std::int32_t kSlackPx = 2;
-  const Vector2<P> low{border(model.window_left_px - kSlackPx),
-                       border(model.window_top_px - kSlackPx)};
-  const Vector2<P> high{border(model.window_right_px + kSlackPx),
-                        border(model.window_bottom_px + kSlackPx)};
+  const Vector2<P> low{border(model.window.left - kSlackPx), border(model.window.top - kSlackPx)};
+  const Vector2<P> high{border(model.window.right + kSlackPx),
+                        border(model.window.bottom + kSlackPx)};
   // Far apart points first: a rim that leaves the window is given up early.
   for (std::size_t i = 0, k = 0; i < spokes.size(); ++i, k = (k + 5) % kRimPoints) {
     const auto plane = to_plane<S>(center + spokes[k]);

@@ -89,11 +89,6 @@ Crossing<S> crossing(const Lane<S>& rim, Px<S> lane) {
           convert<M>(rim.across) + narrow<M>(moved)};
 }
 
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
 // The search along the field's line nearest to the rim point.
 template <Scalar S>
 bool line_search(const FieldView& field, const Lane<S>& rim, const MeasurementBounds& bounds,

@@ -81,14 +81,14 @@ void StillPicture::begin(const Field& field, const Means& means) {
 }
 
 bool StillPicture::mean_blocks(const FieldView& field, Means& means) const {
-  const std::int32_t left = std::clamp(setup_.left_px, 0, field.width_px - 1);
-  const std::int32_t width = std::clamp(setup_.right_px, left, field.width_px - 1) - left + 1;
+  const PixelBox& window = setup_.window;
+  const std::int32_t left = std::clamp(window.left, 0, field.width_px - 1);
+  const std::int32_t width = std::clamp(window.right, left, field.width_px - 1) - left + 1;
   if (width < 2 * kBlock_px || field.lines < 1) {
     return false;
   }
   for (std::int32_t i = 0; i < kLines; ++i) {
-    const std::int32_t v =
-        setup_.top_px + (setup_.bottom_px - setup_.top_px) * (2 * i + 1) / (2 * kLines);
+    const std::int32_t v = window.top + (window.bottom - window.top) * (2 * i + 1) / (2 * kLines);
     const std::int32_t line =
         std::clamp((v - field.first_line) / field.line_step, 0, field.lines - 1);
     const std::uint8_t* const pixels =

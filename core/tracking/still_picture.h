@@ -23,13 +23,10 @@ namespace tubesight::core::tracking {
 /// the rest as well; a picture without contrast never rests. One thread; no heap.
 class StillPicture {
  public:
-  /// Where to look, inclusive, and the longest time between two fields of one parity in which the
+  /// Where to look, and the longest time between two fields of one parity in which the
   /// tool cannot have gone from one tube-end to the next.
   struct Setup {
-    std::int32_t left_px = 0;
-    std::int32_t top_px = 0;
-    std::int32_t right_px = 0;
-    std::int32_t bottom_px = 0;
+    PixelBox window;
     FieldTime longest_gap{0};
   };
 

@@ -10,11 +10,6 @@
 namespace tubesight::core::tracking {
 namespace {
 
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
 // What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
 template <typename M>
 M systematic_mm() {
@@ -98,8 +93,7 @@ typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
   using M = Mm<S>;
   Outcome outcome;
   outcome.pose = predicted;
-  const auto light = judge_light(field, model_->window_left_px, model_->window_top_px,
-                                 model_->window_right_px, model_->window_bottom_px);
+  const auto light = judge_light(field, model_->window);
   if (light != PictureLight::kUsable) {
     outcome.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
     return outcome;

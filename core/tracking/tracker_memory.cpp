@@ -10,9 +10,7 @@ namespace tubesight::core::tracking {
 // drawn and averaged pictures have no noise.
 template <Scalar S>
 bool Tracker<S>::shows_old_picture(const Field& field) {
-  likeness_ =
-      memory_.look(field.pixels, field.parity, model_->window_left_px, model_->window_top_px,
-                   model_->window_right_px, model_->window_bottom_px);
+  likeness_ = memory_.look(field.pixels, field.parity, model_->window);
   return noisy_ && likeness_.equal >= 2;
 }
 

@@ -26,10 +26,7 @@ struct TrackingModel {
   std::int32_t picture_width_px = 0;
   std::int32_t picture_height_px = 0;
 
-  std::int32_t window_left_px = 0;  ///< search window, inclusive
-  std::int32_t window_top_px = 0;
-  std::int32_t window_right_px = 0;
-  std::int32_t window_bottom_px = 0;
+  PixelBox window;  ///< where tube-ends are searched for
   Vector2<Px<S>> optimum_px{};
 
   Mm<S> max_speed_mm_s{};

@@ -44,10 +44,7 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   model.picture_width_px = settings.camera.width_px;
   model.picture_height_px = settings.camera.height_px;
   const auto& window = settings.start.window_px;
-  model.window_left_px = window[0];
-  model.window_top_px = window[1];
-  model.window_right_px = window[2];
-  model.window_bottom_px = window[3];
+  model.window = {window[0], window[1], window[2], window[3]};
   model.optimum_px = {Px<S>(settings.start.optimum_px[0]), Px<S>(settings.start.optimum_px[1])};
   model.max_speed_mm_s = Mm<S>(motion.max_speed_mm_s);
   model.max_acceleration_m_s2 = Mm<S>(motion.max_acceleration_mm_s2 / 1000.0);

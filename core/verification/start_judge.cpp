@@ -14,8 +14,7 @@ void StartJudge<S>::configure() {
   const std::int64_t speed_q4 = to_scaled(model_->max_speed_mm_s, 4);
   const std::int64_t gap_us = speed_q4 > 0 ? step_q16 * 600'000 / (speed_q4 << 12) : 0;
   longest_gap_ = std::chrono::microseconds(gap_us);
-  picture_.configure({model_->window_left_px, model_->window_top_px, model_->window_right_px,
-                      model_->window_bottom_px, longest_gap_});
+  picture_.configure({model_->window, longest_gap_});
 }
 
 template <Scalar S>

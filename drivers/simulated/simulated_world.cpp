@@ -29,7 +29,7 @@ std::array<double, 2> steps_mm(const core::TubesheetSettings& sheet,
           by[0] * sheet.row_step_mm[1] + by[1] * sheet.column_step_mm[1]};
 }
 
-core::rendering::PixelWindow window_of(const Scenario& scenario) {
+core::PixelBox window_of(const Scenario& scenario) {
   const std::int32_t margin = scenario.video.window_margin_px;
   const auto& [left, top, right, bottom] = scenario.told.start.window_px;
   const std::int32_t last_u = scenario.scene.camera.width_px - 1;

@@ -138,7 +138,7 @@ class SimulatedWorld {
   core::kinematics::ToolPath path_;
   std::vector<std::uint8_t> frame_;
   std::vector<std::uint8_t> kept_;  ///< lines of the picture before, while a torn one is drawn
-  core::rendering::PixelWindow window_;
+  core::PixelBox window_ = core::rendering::kWholePicture;
   bool interlaced_ = true;
   std::int64_t slots_ = 0;
   std::int64_t slot_ = 0;               ///< the next

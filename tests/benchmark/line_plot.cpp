@@ -13,8 +13,8 @@
 namespace tubesight::benchmark {
 namespace {
 
+using core::PixelBox;
 using core::overlay::Painter;
-using core::overlay::PixelBox;
 using core::overlay::PixelPoint;
 using core::overlay::Rgb;
 

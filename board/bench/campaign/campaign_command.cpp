@@ -14,6 +14,7 @@
 #include "board/bench/campaign/report.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/progress_line.h"
+#include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/byte_source.h"
 
@@ -26,8 +27,6 @@ using campaign::Progress;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kLargestProgress_bytes = std::size_t{1} << 28U;
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
 
 bool write_file(const std::string& path, const std::string& text) {
   drivers::AtomicFile file;
@@ -165,8 +164,7 @@ class CampaignCommand {
       return ExitStatus::kJobFailed;
     }
     const std::string text = campaign::report_text(progress_);
-    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-      std::perror("standard output: cannot be written");
+    if (!write_out(text)) {
       return ExitStatus::kJobFailed;
     }
     // The self-proof is there to find errors; anything else that finds one has failed.

@@ -9,6 +9,7 @@
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/random_move.h"
 #include "board/bench/campaign/scenario_text.h"
+#include "board/bench/output/text_output.h"
 #include "board/bench/simulate/scenario_file.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
@@ -33,8 +34,6 @@ void print(const Counts& counts) {
     }
   }
 }
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
 
 /// Runs, reduces and writes one move.
 class OneMove {
@@ -94,9 +93,7 @@ class OneMove {
     const auto read = std::make_unique<ScenarioFile>();
     drivers::Messages messages;
     if (!load_scenario(options_.out, {}, *read, messages)) {
-      for (const std::string& message : messages) {
-        tell(message);
-      }
+      tell(messages);
       return ExitStatus::kJobFailed;
     }
     if (run(read->scenario, false).counts != run(*scenario_, false).counts) {

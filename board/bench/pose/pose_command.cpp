@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +11,7 @@
 
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/pose_rows.h"
+#include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_overlay.h"
 #include "board/bench/pose/pose_pictures.h"
 #include "board/bench/pose/pose_starts.h"
@@ -32,8 +32,6 @@
 
 namespace tubesight::board {
 namespace {
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
 
 /// One run of the command; on the heap, as the settings and the workspace are large.
 class PoseRun {
@@ -58,8 +56,7 @@ class PoseRun {
     if (poses_ > 0 && !write()) {
       return ExitStatus::kJobFailed;
     }
-    if (std::fputs(text_.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-      std::perror("standard output: cannot be written");
+    if (!write_out(text_)) {
       return ExitStatus::kJobFailed;
     }
     return status;
@@ -72,9 +69,7 @@ class PoseRun {
     drivers::Messages messages;
     const bool good = static_cast<bool>(
         drivers::load_session_settings(options_.session, drivers::kPoseNeeds, file_, messages));
-    for (const std::string& message : messages) {
-      tell(message);
-    }
+    tell(messages);
     return good && make_model() && take_stills() && take_starts() && take_tubes() &&
            take_extras() && outputs_fit();
   }

@@ -1,15 +1,13 @@
 #include "board/bench/pose/pose_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
 #include <Eigen/Core>
 
+#include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_words.h"
 #include "core/math/rotation.h"
 #include "core/pose/tool_answer.h"
@@ -21,16 +19,6 @@ namespace {
 using core::TubeState;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// Appends as std::printf writes, up to 500 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
-}
 
 double sigma(const PoseRow& row, int i) { return std::sqrt(std::max(0.0, row.covariance(i, i))); }
 

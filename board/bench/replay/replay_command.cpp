@@ -11,6 +11,7 @@
 #include "board/bench/output/pose_rows.h"
 #include "board/bench/output/progress_line.h"
 #include "board/bench/output/result_files.h"
+#include "board/bench/output/text_output.h"
 #include "board/bench/replay/replay_job.h"
 #include "board/bench/replay/replay_statistics.h"
 #include "board/bench/replay/summary_text.h"
@@ -25,14 +26,6 @@
 
 namespace tubesight::board {
 namespace {
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
-
-void tell(const drivers::Messages& messages) {
-  for (const std::string& message : messages) {
-    tell(message);
-  }
-}
 
 /// The files of one replay and what is written from them.
 class Replay {
@@ -168,8 +161,7 @@ class Replay {
     const std::string text = summary_text(
         {options_.recording, header.width_px, header.height_px, grabber_->interlaced(), cut_short},
         statistics_);
-    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-      std::perror("standard output: cannot be written");
+    if (!write_out(text)) {
       return ExitStatus::kJobFailed;
     }
     return ExitStatus::kDone;

@@ -1,10 +1,9 @@
 #include "board/bench/replay/summary_text.h"
 
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <string_view>
 
+#include "board/bench/output/text_output.h"
 #include "core/base/names.h"
 
 namespace tubesight::board {
@@ -13,16 +12,6 @@ namespace {
 using core::FieldTime;
 using core::Reason;
 using core::TrackState;
-
-/// Appends as std::printf writes, up to 500 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
-}
 
 double seconds(FieldTime time) { return std::chrono::duration<double>(time).count(); }
 

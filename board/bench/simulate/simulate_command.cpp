@@ -9,6 +9,7 @@
 
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/progress_line.h"
+#include "board/bench/output/text_output.h"
 #include "board/bench/simulate/recording_files.h"
 #include "board/bench/simulate/scenario_file.h"
 #include "board/bench/simulate/settings_text.h"
@@ -19,8 +20,6 @@
 
 namespace tubesight::board {
 namespace {
-
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
 
 /// Where an output cannot go; empty when all can.
 std::string find_output_conflict(const SimulateOptions& options, const ScenarioFile& file) {
@@ -65,9 +64,7 @@ ExitStatus run_simulate(const SimulateOptions& options) {
   const bool good =
       load_scenario(options.scenario, {options.seed, options.window_only}, *file, messages)
           .has_value();
-  for (const std::string& message : messages) {
-    tell(message);
-  }
+  tell(messages);
   if (!good) {
     return ExitStatus::kWrongInput;
   }
@@ -109,8 +106,7 @@ ExitStatus run_simulate(const SimulateOptions& options) {
     return ExitStatus::kJobFailed;
   }
   const std::string text = summary(options, *file, *world, files.frames(), delivered);
-  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
-    std::perror("standard output: cannot be written");
+  if (!write_out(text)) {
     return ExitStatus::kJobFailed;
   }
   return ExitStatus::kDone;

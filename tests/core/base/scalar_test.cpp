@@ -37,6 +37,8 @@ TYPED_TEST(ScalarTest, ToScaledRoundsTiesAwayFromZero) {
   EXPECT_EQ(to_scaled(Mm<S>(-2.5), 0), -3);
   EXPECT_EQ(to_scaled(Mm<S>(2.4375), 0), 2);
   EXPECT_EQ(to_scaled(Mm<S>(-2.4375), 0), -2);
+  EXPECT_EQ(rounded(Mm<S>(-2.5)), -3);
+  EXPECT_EQ(rounded(Mm<S>(2.4375)), 2);
   EXPECT_EQ(to_scaled(Px<S>(-1.25), 16), -81920);
   EXPECT_EQ(to_scaled(Mm<S>(0.3125), 3), 3);  // 2.5 steps
   EXPECT_EQ(to_scaled(Unit<S>(-0.5), 30), -536870912);

@@ -13,6 +13,30 @@ using Three = StaticVector<std::int32_t, 3>;
 static_assert(std::is_trivially_copyable_v<Three>);
 static_assert(Three::capacity() == 3);
 
+// As Eigen's matrices are: copied by a function of their own.
+struct Copied {
+  Copied() = default;
+  Copied(const Copied& other) : value(other.value) {}
+  Copied& operator=(const Copied& other) {
+    value = other.value;
+    return *this;
+  }
+  std::int32_t value = 0;
+};
+static_assert(!std::is_trivially_copyable_v<StaticVector<Copied, 2>>);
+
+TEST(StaticVector, HoldsWhatIsCopiedByAFunction) {
+  StaticVector<Copied, 2> list;
+  Copied one;
+  one.value = 3;
+  ASSERT_TRUE(list.try_push_back(one));
+
+  const StaticVector<Copied, 2> copy = list;
+
+  ASSERT_EQ(copy.size(), 1);
+  EXPECT_EQ(copy[0].value, 3);
+}
+
 TEST(StaticVector, StartsEmpty) {
   const Three list;
   EXPECT_EQ(list.size(), 0);

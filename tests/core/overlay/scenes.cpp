@@ -67,7 +67,7 @@ std::vector<std::uint8_t> grey_picture(const Lattice& lattice, std::int32_t widt
 }
 
 // All of the lattice inside a window: some rejected, and one plug.
-std::vector<TubeSighting> tubes_in(const Lattice& lattice, const core::overlay::PixelBox& window) {
+std::vector<TubeSighting> tubes_in(const Lattice& lattice, const core::PixelBox& window) {
   std::vector<TubeSighting> tubes;
   for (std::int32_t row = -kReach; row <= kReach; ++row) {
     for (std::int32_t column = -kReach; column <= kReach; ++column) {
@@ -97,7 +97,7 @@ Picture draw(const Lattice& lattice, const OverlayInput& input, std::int32_t wid
 Picture draw_aligned() {
   const Lattice lattice{{40, 60}, 318, 190, {0, 66}, {78, 0}, 27};
   OverlayInput input;
-  input.window = core::overlay::PixelBox{40, 36, 595, 330};
+  input.window = core::PixelBox{40, 36, 595, 330};
   input.optimum_px = ImagePoint{330 * 65536, 180 * 65536};
   const auto tubes = tubes_in(lattice, *input.window);
   input.tubes = tubes;
@@ -122,7 +122,7 @@ Picture draw_aligned() {
 Picture draw_between() {
   const Lattice lattice{{-3, 118}, 300, 170, {72, 8}, {6, -64}, 25};
   OverlayInput input;
-  input.window = core::overlay::PixelBox{40, 36, 595, 400};
+  input.window = core::PixelBox{40, 36, 595, 400};
   const std::array<TubeSighting, 2> tubes{
       TubeSighting{{-3, 118}, lattice.point({-3, 118}), 7000, false},
       TubeSighting{{-2, 117}, lattice.point({-2, 117}), 6000, false}};
@@ -149,7 +149,7 @@ Picture draw_between() {
 Picture draw_lost() {
   const Lattice lattice{{40, 60}, 318, 190, {0, 66}, {78, 0}, 27};
   OverlayInput input;
-  input.window = core::overlay::PixelBox{40, 36, 595, 330};
+  input.window = core::PixelBox{40, 36, 595, 330};
   input.optimum_px = ImagePoint{318 * 65536, 183 * 65536};
   input.field = 1'203;
   input.sighting.time = core::FieldTime(20'050'000'000);
@@ -162,7 +162,7 @@ Picture draw_lost() {
 Picture draw_estimates() {
   const Lattice lattice{{40, 60}, 318, 190, {0, 66}, {78, 0}, 27};
   OverlayInput input;
-  input.window = core::overlay::PixelBox{40, 36, 595, 330};
+  input.window = core::PixelBox{40, 36, 595, 330};
   const auto tubes = tubes_in(lattice, {200, 100, 450, 300});
   input.tubes = tubes;
   std::vector<Estimate> estimates;
@@ -191,7 +191,7 @@ Picture draw_estimates() {
 Picture draw_small() {
   const Lattice lattice{{8, 9}, 20, 30, {0, 40}, {44, 2}, 14};
   OverlayInput input;
-  input.window = core::overlay::PixelBox{-5, 10, 250, 190};
+  input.window = core::PixelBox{-5, 10, 250, 190};
   const auto tubes = tubes_in(lattice, *input.window);
   input.tubes = tubes;
   Sighting& s = input.sighting;

@@ -18,7 +18,7 @@ class PictureLightOf : public ::testing::TestWithParam<Parity> {
     sheet.look.noise = noise;
     Frame frame;
     sheet.draw(kOverTube, GetParam(), 1, frame);
-    return judge_light(sheet.view(frame, GetParam()), 40, 36, 595, 330);
+    return judge_light(sheet.view(frame, GetParam()), {40, 36, 595, 330});
   }
 
   std::unique_ptr<SessionSettings> settings_ = std::make_unique<SessionSettings>();
@@ -50,14 +50,14 @@ TEST_P(PictureLightOf, LooksAtTheWindowAlone) {
   for (std::size_t v = 0; v < 30; ++v) {
     std::fill_n(frame.begin() + static_cast<std::ptrdiff_t>(v * 635), 635, std::uint8_t{200});
   }
-  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), 40, 36, 595, 330), PictureLight::kDark);
+  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), {40, 36, 595, 330}), PictureLight::kDark);
 }
 
 TEST_P(PictureLightOf, StaysWithinThePictureWithAnyWindow) {
   const Frame frame(635 * 480, 100);
   const SyntheticSheet sheet(*settings_);
-  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), 0, 0, 634, 479), PictureLight::kUsable);
-  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), -500, -500, 2000, 2000),
+  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), {0, 0, 634, 479}), PictureLight::kUsable);
+  EXPECT_EQ(judge_light(sheet.view(frame, GetParam()), {-500, -500, 2000, 2000}),
             PictureLight::kUsable);
 }
 

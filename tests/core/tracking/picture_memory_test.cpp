@@ -23,7 +23,7 @@ class PictureMemoryOf : public testing::Test {
   }
   PictureLikeness look(Parity parity = Parity::kEven) {
     const ImageView frame{pixels_.data(), kWidth, kHeight, kWidth};
-    return memory_.look(field_of(frame, parity), parity, 20, 20, 300, 200);
+    return memory_.look(field_of(frame, parity), parity, {20, 20, 300, 200});
   }
 
   std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(kWidth * kHeight);

@@ -33,8 +33,7 @@ TYPED_TEST(TrackingSetup, TakesTheSettingsOver) {
   const auto& model = this->scene_.model;
   EXPECT_EQ(number(model.tip_mm.y), 31.5);
   EXPECT_NEAR(number(model.bore_radius_mm), 9.3, 1e-6);
-  EXPECT_EQ(model.window_left_px, 40);
-  EXPECT_EQ(model.window_bottom_px, 330);
+  EXPECT_EQ(model.window, (PixelBox{40, 36, 595, 330}));
   EXPECT_EQ(number(model.optimum_px.x), 318.0);
   EXPECT_EQ(number(model.max_speed_mm_s), 250.0);
   EXPECT_EQ(number(model.max_acceleration_m_s2), 4.0);

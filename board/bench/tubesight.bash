@@ -1,0 +1,89 @@
+# bash completion for tubesight(1). tests/checks/manual.py holds it to `tubesight --help`.
+
+# Folders, and files that end as told: _tubesight_files .y4m .y4m.xz
+_tubesight_files() {
+  local suffix
+  compopt -o filenames 2> /dev/null
+  mapfile -t COMPREPLY < <(
+    compgen -d -- "$cur"
+    for suffix in "$@"; do compgen -f -X "!*$suffix" -- "$cur"; done
+  )
+}
+
+_tubesight_words() { mapfile -t COMPREPLY < <(compgen -W "$*" -- "$cur"); }
+
+_tubesight() {
+  local cur=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+  local command=${COMP_WORDS[1]} options taking i position=0
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    case $cur in
+      -*) _tubesight_words -h --help --version ;;
+      *) _tubesight_words replay pose simulate campaign ;;
+    esac
+    return
+  fi
+
+  # Flags, and options that take a value.
+  case $command in
+    replay)
+      options="-h --help --overlay-estimates"
+      taking="--fields --centers --overlay --poses --scalar"
+      ;;
+    pose)
+      options="-h --help --only-start --average --total"
+      taking="--frames --start --csv --covariance --overlay --correct --limit-mm --method --edge"
+      ;;
+    simulate)
+      options="-h --help --window-only"
+      taking="--out --seed"
+      ;;
+    campaign)
+      options="-h --help --reduce --without-margin-check"
+      taking="--moves --fields --hours --seed --first-move --jobs --resume --report --merge"
+      taking+=" --replay-move --out"
+      ;;
+    *) return ;;
+  esac
+
+  case $command$previous in
+    replay--scalar) _tubesight_words fixed float double && return ;;
+    pose--method)
+      _tubesight_words rims centers tangent-points tangent-lines ellipse-centers && return
+      ;;
+    pose--edge) _tubesight_words step mid-level moment && return ;;
+    replay--overlay) _tubesight_files .y4m && return ;;
+    pose--overlay) _tubesight_files .png && return ;;
+    replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | \
+      campaign--resume | campaign--report | campaign--merge)
+      _tubesight_files .csv && return
+      ;;
+    campaign--out) _tubesight_files .toml .csv && return ;;
+    simulate--out) _tubesight_files "" && return ;;
+  esac
+  case " $taking " in
+    *" $previous "*) return ;; # a number, a tube: nothing to offer
+  esac
+  case $cur in
+    -*)
+      _tubesight_words "$options" "$taking"
+      return
+      ;;
+  esac
+
+  # The arguments before this one, without options and their values.
+  for ((i = 2; i < COMP_CWORD; i++)); do
+    case " $taking " in
+      *" ${COMP_WORDS[i]} "*) ((i++)) ;;
+      *) [[ ${COMP_WORDS[i]} == -* ]] || ((position++)) ;;
+    esac
+  done
+  case $command$position in
+    replay0 | pose0 | simulate0) _tubesight_files .toml ;;
+    replay1) _tubesight_files .y4m .y4m.xz ;;
+    pose*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
+    campaign*) _tubesight_files .csv ;; # more of --merge
+  esac
+}
+
+complete -F _tubesight tubesight

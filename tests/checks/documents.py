@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""What the documents point at is there.
+
+Usage: documents.py ROOT | documents.py --self-test
+
+Links of README.md, CONTRIBUTING.md and docs/ lead to files, and to headings where they name one. Folders
+and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
+`drivers/<name>/` for one driver at least.
+"""
+import pathlib
+import re
+import sys
+import tempfile
+
+from source_text import report
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+CODE = re.compile(r"`([^`\n]+)`")
+PATH = re.compile(r"^(?:\./)?([\w.<>-]+/[\w./<>-]*|[\w-]+\.(?:cpp|h|py|md|cmake|sh|json|txt|toml|1))$")
+FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
+# Made by a build, or a part of C++ or of a command.
+NOT_HERE = ("build/",)
+
+
+def anchors(text):
+    """The names by which GitHub links to headings."""
+    found = set()
+    for heading in re.findall(r"^#+ (.*)$", FENCE.sub("", text), re.MULTILINE):
+        kept = re.sub(r"[^\w\- ]", "", heading.lower())
+        found.add(kept.replace(" ", "-"))
+    return found
+
+
+def link_problem(path, target):
+    if re.match(r"^[a-z]+:", target):
+        return None
+    name, _, anchor = target.partition("#")
+    file = path.parent / name if name else path
+    if not file.exists():
+        return f"'{target}' leads nowhere"
+    if anchor and anchor not in anchors(file.read_text(encoding="utf-8")):
+        return f"'{target}': {file.name} has no such heading"
+    return None
+
+
+def is_there(root, name):
+    pattern = re.sub(r"<\w+>", "*", name.rstrip("/"))
+    if "/" not in name:
+        return (root / name).is_file() or any(
+            found.is_file() for folder in ("core", "hal", "drivers", "board", "tests", "toolchain")
+            for found in (root / folder).rglob(pattern))
+    found = list(root.glob(pattern))
+    return any(file.is_dir() for file in found) if name.endswith("/") else bool(found)
+
+
+def lines_of(path):
+    # Code blocks keep their lines, but hold no links.
+    text = path.read_text(encoding="utf-8")
+    return FENCE.sub(lambda match: "\n" * match.group(0).count("\n"), text).splitlines()
+
+
+def check(root):
+    root = pathlib.Path(root)
+    problems = []
+    documents = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
+    for path in documents:
+        name = path.relative_to(root).as_posix()
+        for number, line in enumerate(lines_of(path), 1):
+            found = [link_problem(path, target) for target in LINK.findall(line)]
+            if path.name == "CONTRIBUTING.md":
+                words = [word for code in CODE.findall(line) for word in code.split()]
+                found += [f"`{word}` does not exist" for word in words
+                          if PATH.match(word) and not word.startswith(NOT_HERE)
+                          and not is_there(root, word.removeprefix("./"))]
+            problems += [f"{name}:{number}: {problem}" for problem in found if problem]
+    return problems, len(documents)
+
+
+def self_test():
+    planted = {
+        "README.md": "# A b: `c --d`\n[x](docs/a.md) [y](https://example.org/x) [z](#a-b-c---d)\n"
+                     "[u](docs/b.md)\n[v](docs/a.md#no)\n",
+        "CONTRIBUTING.md": "`core/x/` `y.cpp` `drivers/<name>/` `drivers/<name>/y.cpp` `build/z` `R`\n"
+                           "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
+                           "`board/<name>/`\n`core/x/y.cpp/`\n",
+        "docs/a.md": "# Yes\n",
+        "core/x/y.cpp": "",
+        "drivers/v/y.cpp": "",
+        "go.sh": "",
+    }
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        for name, text in planted.items():
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).write_text(text, encoding="utf-8")
+        found, _ = check(root)
+    expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
+                "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
+                "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`"]
+    good = len(found) == len(expected) and all(
+        problem.startswith(begin) for problem, begin in zip(found, expected))
+    return report("documents --self-test",
+                  [] if good else [f"expected {expected}, reported {found}"],
+                  f"{len(expected)} planted mistakes")
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "--self-test":
+        sys.exit(self_test())
+    list_of_problems, number_of_documents = check(sys.argv[1])
+    sys.exit(report("documents", list_of_problems, f"{number_of_documents} documents"))
