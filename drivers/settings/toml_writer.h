@@ -10,7 +10,7 @@
 
 #include "core/base/tube_address.h"
 
-namespace tubesight::board::campaign {
+namespace tubesight::drivers {
 
 /// A number in the shortest form that reads back exactly.
 [[nodiscard]] std::string toml_number(double value);
@@ -53,4 +53,4 @@ class TomlWriter {
   std::string text_;
 };
 
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::drivers

@@ -1,4 +1,4 @@
-#include "board/bench/campaign/scenario_text.h"
+#include "board/bench/simulate/scenario_text.h"
 
 #include <array>
 #include <charconv>
@@ -6,17 +6,19 @@
 #include <span>
 #include <string_view>
 
-#include "board/bench/campaign/scenario_fault_text.h"
-#include "board/bench/campaign/toml_writer.h"
+#include "board/bench/simulate/scenario_fault_text.h"
 #include "board/bench/simulate/scenario_keys.h"
+#include "drivers/settings/toml_writer.h"
 
-namespace tubesight::board::campaign {
+namespace tubesight::board {
 namespace {
 
 using core::kinematics::PathSegment;
 using core::kinematics::SegmentKind;
 using core::rendering::PlugKind;
 using drivers::Scenario;
+using drivers::toml_number;
+using drivers::TomlWriter;
 
 constexpr std::array<const char*, 3> kScanWords = {"even-first", "odd-first", "progressive"};
 constexpr std::array<const char*, 3> kAddressWords = {"all", "even-sum", "odd-sum"};
@@ -197,4 +199,4 @@ std::string scenario_text(const Scenario& scenario, const std::string& title) {
   return toml.take();
 }
 
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::board

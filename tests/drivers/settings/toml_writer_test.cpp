@@ -1,11 +1,11 @@
-#include "board/bench/campaign/toml_writer.h"
+#include "drivers/settings/toml_writer.h"
 
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-namespace tubesight::board::campaign {
+namespace tubesight::drivers {
 namespace {
 
 TEST(TomlNumber, IsShortExactAndARealNumber) {
@@ -32,4 +32,4 @@ TEST(TomlWriter, WritesTablesKeysAndLists) {
 }
 
 }  // namespace
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::drivers

@@ -1,4 +1,4 @@
-#include "board/bench/simulate/settings_text.h"
+#include "drivers/settings/session_text.h"
 
 #include <memory>
 #include <string>
@@ -8,14 +8,14 @@
 #include "drivers/settings/session_settings.h"
 #include "tests/drivers/settings/settings_files.h"
 
-namespace tubesight::board {
+namespace tubesight::drivers {
 namespace {
 
 TEST(TomlNumber, IsTheShortestDecimalWithAPoint) {
-  EXPECT_EQ(toml_number(25.0), "25.0");
-  EXPECT_EQ(toml_number(0.1), "0.1");
-  EXPECT_EQ(toml_number(-0.00005), "-0.00005");
-  EXPECT_EQ(toml_number(19.24741459910915), "19.24741459910915");
+  EXPECT_EQ(plain_number(25.0), "25.0");
+  EXPECT_EQ(plain_number(0.1), "0.1");
+  EXPECT_EQ(plain_number(-0.00005), "-0.00005");
+  EXPECT_EQ(plain_number(19.24741459910915), "19.24741459910915");
 }
 
 TEST(TomlText, KeepsQuotationMarksApart) {
@@ -23,9 +23,9 @@ TEST(TomlText, KeepsQuotationMarksApart) {
 }
 
 /// Everything different from its default.
-std::unique_ptr<drivers::SessionFile> odd_session() {
-  auto file = std::make_unique<drivers::SessionFile>();
-  drivers::MemoryFiles files;
+std::unique_ptr<SessionFile> odd_session() {
+  auto file = std::make_unique<SessionFile>();
+  MemoryFiles files;
   files.texts["s.toml"] =
       "[camera]\nwidth_px = 635\nheight_px = 480\nscan = \"odd-first\"\nfocal_length_mm = 5.0603\n"
       "cell_width_mm = 0.00841\ncell_height_mm = 0.0098\nsensor_columns = 768\n"
@@ -46,10 +46,9 @@ std::unique_ptr<drivers::SessionFile> odd_session() {
       "[edges]\ninitial_threshold = 210\nregion_threshold = 61\n"
       "[verification]\naligned_within_mm = 2.25\n"
       "claim_within_s = 0.031\nclaim_oldest_s = 0.35\n";
-  drivers::Messages messages;
+  Messages messages;
   const bool good =
-      drivers::load_session_settings(files, "s.toml", drivers::kReplayNeeds, *file, messages)
-          .has_value();
+      load_session_settings(files, "s.toml", kReplayNeeds, *file, messages).has_value();
   EXPECT_TRUE(good) << (messages.empty() ? "" : messages.front());
   return file;
 }
@@ -57,13 +56,12 @@ std::unique_ptr<drivers::SessionFile> odd_session() {
 TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
   const auto before = odd_session();
   const std::string text = session_text(before->settings) + start_text(before->settings.start);
-  drivers::MemoryFiles files;
+  MemoryFiles files;
   files.texts["again.toml"] = text;
-  const auto after = std::make_unique<drivers::SessionFile>();
-  drivers::Messages messages;
+  const auto after = std::make_unique<SessionFile>();
+  Messages messages;
 
-  ASSERT_TRUE(
-      drivers::load_session_settings(files, "again.toml", drivers::kReplayNeeds, *after, messages))
+  ASSERT_TRUE(load_session_settings(files, "again.toml", kReplayNeeds, *after, messages))
       << messages.front() << "\n"
       << text;
 
@@ -98,4 +96,4 @@ TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
 }
 
 }  // namespace
-}  // namespace tubesight::board
+}  // namespace tubesight::drivers

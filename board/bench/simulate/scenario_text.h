@@ -4,7 +4,7 @@
 
 #include "drivers/simulated/scenario.h"
 
-namespace tubesight::board::campaign {
+namespace tubesight::board {
 
 /// A scenario as a file that `tubesight simulate` takes; numbers in their shortest exact form.
 ///
@@ -14,4 +14,4 @@ namespace tubesight::board::campaign {
 [[nodiscard]] std::string scenario_text(const drivers::Scenario& scenario,
                                         const std::string& title);
 
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::board

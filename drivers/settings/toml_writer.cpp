@@ -1,8 +1,8 @@
-#include "board/bench/campaign/toml_writer.h"
+#include "drivers/settings/toml_writer.h"
 
 #include <charconv>
 
-namespace tubesight::board::campaign {
+namespace tubesight::drivers {
 
 std::string toml_number(double value) {
   std::array<char, 40> text{};
@@ -31,4 +31,4 @@ void TomlWriter::addresses(std::string_view key, std::span<const core::TubeAddre
   raw(key, "[" + text + "]");
 }
 
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::drivers

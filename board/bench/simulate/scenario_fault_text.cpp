@@ -1,13 +1,14 @@
-#include "board/bench/campaign/scenario_fault_text.h"
+#include "board/bench/simulate/scenario_fault_text.h"
 
 #include <array>
 #include <string>
 
-namespace tubesight::board::campaign {
+namespace tubesight::board {
 namespace {
 
 using drivers::Fault;
 using drivers::FaultKind;
+using drivers::TomlWriter;
 
 void write_lamps(TomlWriter& toml, const Fault& fault) {
   constexpr std::int32_t kLamps = 12;
@@ -63,4 +64,4 @@ void write_fault(TomlWriter& toml, const Fault& fault) {
   write_parameters(toml, fault);
 }
 
-}  // namespace tubesight::board::campaign
+}  // namespace tubesight::board
