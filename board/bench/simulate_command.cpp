@@ -14,7 +14,7 @@
 #include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
 #include "drivers/settings/session_checks.h"
-#include "drivers/settings/session_text.h"
+#include "drivers/settings/toml_writer.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {

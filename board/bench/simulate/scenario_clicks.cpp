@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "board/bench/simulate/scenario_keys.h"
 #include "board/bench/simulate/tubes_in_view.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/simulated/dice.h"
@@ -17,13 +18,13 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
   wish.place = table.place();
   wish.name = table.name();
   // The conventions let an operator be 60 % off.
-  table.optional_number("off_center", {0.0, 0.6, ""}, wish.off_center);
-  const toml::array* const list = table.list("click_on", false, kExpected);
+  table.optional_number(kOffCenterKey, {0.0, 0.6, ""}, wish.off_center);
+  const toml::array* const list = table.list(kClickOnKey, false, kExpected);
   if (list == nullptr) {
     return;
   }
   if (list->size() < 3 || list->size() > core::kMaxStartPoints) {
-    table.complain("click_on", drivers::describe(*list) + ", expected " + kExpected);
+    table.complain(kClickOnKey, drivers::describe(*list) + ", expected " + kExpected);
     return;
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -32,7 +33,7 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
                                   ? drivers::why_no_tube(sheet, tube)
                                   : drivers::why_no_address((*list)[i]);
     if (!wrong.empty()) {
-      table.complain_entry("click_on", i, (*list)[i], wrong);
+      table.complain_entry(kClickOnKey, i, (*list)[i], wrong);
     }
     wish.tubes.push_back(tube);
   }
