@@ -8,6 +8,7 @@
 
 #include "core/base/instantiate.h"
 #include "core/base/static_vector.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::core::tubesheet {
 namespace {
@@ -173,10 +174,11 @@ Result<Lattice<S>> make_lattice(const TubesheetSettings& settings) {
   const Step column{{0, 1}, settings.column_step_mm[0], settings.column_step_mm[1]};
   // Below 1 mm even every other address would leave steps under 2 mm; NaN is refused too.
   const auto fits = [](const Step& step) {
-    return step.length2() >= 1.0 && step.length2() <= 250000.0;
+    return step.length2() >= kShortestStep_mm * kShortestStep_mm &&
+           step.length2() <= kLongestStep_mm * kLongestStep_mm;
   };
   const double share = settings.odd_row_shift;
-  if (!fits(row) || !fits(column) || !(share >= -1.0 && share <= 1.0)) {
+  if (!fits(row) || !fits(column) || !(share >= -kLargestShift && share <= kLargestShift)) {
     return Unexpected(Error::kOutOfRange);
   }
   const double area = row.x * column.y - row.y * column.x;
@@ -219,15 +221,19 @@ std::array<double, 2> center_mm(const TubesheetSettings& settings, TubeAddress a
   return at;
 }
 
+std::array<double, 2> center_mm(const Lattice<double>& lattice,
+                                const std::array<double, 2>& origin_mm, TubeAddress address) {
+  const Lattice<double>::Parameters& p = lattice.parameters();
+  const double shifted = in_odd_row(address) ? 1.0 : 0.0;
+  return {origin_mm[0] + address.row * p.row_step.x + address.column * p.column_step.x +
+              shifted * p.odd_row_shift.x,
+          origin_mm[1] + address.row * p.row_step.y + address.column * p.column_step.y +
+              shifted * p.odd_row_shift.y};
+}
+
 double shortest_step_mm(const TubesheetSettings& settings) {
   const ShortSteps steps = short_steps(settings);
   return shortest_of(steps, steps_around(steps));
-}
-
-bool is_symmetry(const TubesheetSettings& settings, TubeAddress step) {
-  const bool keeps_parity =
-      settings.addresses == AddressParity::kAll || exists(AddressParity::kEvenSum, step);
-  return keeps_parity && (settings.odd_row_shift == 0.0 || !in_odd_row(step));
 }
 
 #define TUBESIGHT_INSTANTIATE(S) \

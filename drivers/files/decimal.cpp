@@ -74,6 +74,13 @@ std::string number_text(double value) {
   return {text, end};
 }
 
+std::string rounded_text(double value, int digits) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+  return {text, end};
+}
+
 bool parse_decimal(std::string_view text, std::int32_t digits, std::int64_t& value) {
   TUBESIGHT_ASSERT(digits >= 0 && digits <= 9);
   const bool negative = text.starts_with('-');

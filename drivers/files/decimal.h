@@ -20,6 +20,9 @@ void append_whole(std::string& out, std::int64_t value);
 /// 10^9 on, where a plain one would be a row of zeros.
 [[nodiscard]] std::string number_text(double value);
 
+/// For numbers that were calculated: so many significant digits, 1..9.
+[[nodiscard]] std::string rounded_text(double value, int digits = 4);
+
 /// Reads a decimal number ("-12", "3.5", ".5") as a multiple of 10^-digits, exactly.
 ///
 /// False, and `value` as it was, when the text is anything else (spaces and exponents too), has

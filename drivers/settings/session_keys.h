@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/base/settings.h"
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/table_keys.h"
 
@@ -20,7 +21,8 @@ inline constexpr WholeRange kCells{16, 16384};           // cells or samples of 
 inline constexpr NumberRange kCell{0.0005, 0.1, " mm"};  // half a micrometre to 100
 inline constexpr NumberRange kPicturePlace{0.0, static_cast<double>(kSide_px.most), " px"};
 inline constexpr NumberRange kAngle{-360.0, 360.0, " degrees"};
-inline constexpr NumberRange kStep{-500.0, 500.0, " mm"};
+inline constexpr NumberRange kStep{-core::tubesheet::kLongestStep_mm,
+                                   core::tubesheet::kLongestStep_mm, " mm"};
 inline constexpr WholeRange kAddress{-9999, 9999};
 inline constexpr NumberRange kClaimSpan{0.001, 1.0, " s"};  // the last second of fields is kept
 
@@ -29,6 +31,9 @@ inline constexpr std::array<std::string_view, 3> kScanWords = {"even-first", "od
                                                                "progressive"};
 inline constexpr std::array<std::string_view, 2> kWeldWords = {"flush", "fillet"};
 inline constexpr std::array<std::string_view, 3> kAddressWords = {"all", "even-sum", "odd-sum"};
+/// What an address must have to exist, for messages.
+inline constexpr std::array<std::string_view, kAddressWords.size()> kAddressRules = {
+    "any", "an even sum of row and column", "an odd sum of row and column"};
 
 /// `[camera]`
 inline constexpr std::tuple kCameraKeys{
@@ -90,11 +95,12 @@ inline constexpr std::tuple kTubesheetKeys{
                                           Need::kNeeded},
     WordKey<core::TubesheetSettings, core::AddressParity>{"addresses", kAddressWords,
                                                           &core::TubesheetSettings::addresses},
-    NumberKey<core::TubesheetSettings>{"odd_row_shift",
-                                       {-1.0, 1.0, " of a column step"},
-                                       &core::TubesheetSettings::odd_row_shift,
-                                       Need::kOptional,
-                                       0.0},
+    NumberKey<core::TubesheetSettings>{
+        "odd_row_shift",
+        {-core::tubesheet::kLargestShift, core::tubesheet::kLargestShift, " of a column step"},
+        &core::TubesheetSettings::odd_row_shift,
+        Need::kOptional,
+        0.0},
 };
 
 /// A list of addresses, `[[row, column], ...]`.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/session_keys.h"
 
@@ -68,7 +69,7 @@ void read_addresses(TableReader& table, std::string_view key,
     TubeAddress address;
     if (!read_address(entry, address)) {
       table.complain_entry(key, i, entry, why_no_address(entry));
-    } else if (ranges_known && !in_ranges(tubesheet, address)) {
+    } else if (ranges_known && !core::tubesheet::in_ranges(tubesheet, address)) {
       table.complain_entry(key, i, entry,
                            address_text(address) + ", expected " + ranges_text(tubesheet));
     } else {

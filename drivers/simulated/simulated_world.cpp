@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/simulated/dice.h"
 
 namespace tubesight::drivers {
@@ -22,12 +23,6 @@ constexpr double kShortest_s = 1e-4;
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 double seconds(core::FieldTime time) { return static_cast<double>(time.count()) * 1e-9; }
-
-std::array<double, 2> steps_mm(const core::TubesheetSettings& sheet,
-                               const std::array<std::int32_t, 2>& by) {
-  return {by[0] * sheet.row_step_mm[0] + by[1] * sheet.column_step_mm[0],
-          by[0] * sheet.row_step_mm[1] + by[1] * sheet.column_step_mm[1]};
-}
 
 core::rendering::PixelWindow window_of(const Scenario& scenario) {
   const std::int32_t margin = scenario.video.window_margin_px;
@@ -132,7 +127,8 @@ Parity SimulatedWorld::parity_of(std::int64_t slot) const {
 SimulatedWorld::SheetTool SimulatedWorld::pose_at(double time_s, const FieldFaults& faults) {
   const SheetTool pose =
       motion_ != nullptr ? motion_->pose_at(time_s) : path_.state_at(time_s).T_sheet_tool;
-  const auto jump_mm = steps_mm(scenario_->scene.sheet, faults.jump);
+  const auto jump_mm =
+      core::tubesheet::move_mm(scenario_->scene.sheet, {faults.jump[0], faults.jump[1]});
   const core::Transform<core::frames::Sheet, core::frames::Sheet> jump(
       Eigen::Matrix3d::Identity(), Eigen::Vector3d(jump_mm[0], jump_mm[1], 0.0));
   return jump * pose * shake_at(scenario_->faults, time_s);

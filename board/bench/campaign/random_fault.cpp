@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/tubesheet/tubesheet_setup.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -106,7 +106,8 @@ class FaultDrawing {
       fault.rows = random_.whole(-2, 2);
       fault.columns = random_.whole(-2, 2);
       exists = (fault.rows != 0 || fault.columns != 0) &&
-               core::tubesheet::is_symmetry(scenario_.scene.sheet, {fault.rows, fault.columns});
+               core::tubesheet::check_move(scenario_.scene.sheet, {fault.rows, fault.columns}) ==
+                   core::tubesheet::MoveFault::kNone;
     }
   }
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "board/bench/simulate/lattice_geometry.h"
-#include "core/tubesheet/tubesheet_setup.h"
+#include "core/tubesheet/sheet_places.h"
+#include "drivers/settings/session_checks.h"
 
 namespace tubesight::board {
 namespace {
@@ -106,9 +106,9 @@ class JumpCheck {
     }
     const core::TubesheetSettings& sheet = scenario_.told.tubesheet;
     const auto place = path_.state_at(time_s).place;
-    const auto jumped = core::tubesheet::center_mm(sheet, by);
-    return why_off_the_sheet(sheet, {place.x_mm + jumped[0] - sheet.origin_mm[0],
-                                     place.y_mm + jumped[1] - sheet.origin_mm[1]});
+    const auto jumped_mm = core::tubesheet::move_mm(sheet, by);
+    return drivers::why_off_the_sheet(sheet,
+                                      {place.x_mm + jumped_mm[0], place.y_mm + jumped_mm[1]});
   }
 
   const Scenario& scenario_;

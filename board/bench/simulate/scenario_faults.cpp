@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "board/bench/simulate/scenario_keys.h"
-#include "core/tubesheet/addresses.h"
-#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/read_table.h"
+#include "drivers/settings/session_checks.h"
 #include "drivers/settings/table_reader.h"
 
 namespace tubesight::board {
@@ -147,12 +146,10 @@ void check_parameters(TableReader& table, const FaultContext& context, const Fau
     table.complain(kKindKey, "swapped, but the camera is progressive, expected another kind");
   }
   const TubeAddress by{fault.rows, fault.columns};
-  if (fault.kind == FaultKind::kJump && table.sound(kStepsKey.key) &&
-      !core::tubesheet::is_symmetry(*context.sheet, by)) {
-    table.complain(kStepsKey.key,
-                   context.sheet->odd_row_shift != 0.0 && core::tubesheet::in_odd_row(by)
-                       ? "an odd number of rows, expected an even one on this sheet"
-                       : "an odd sum of rows and columns, expected an even one on this sheet");
+  if (fault.kind == FaultKind::kJump && table.sound(kStepsKey.key)) {
+    if (const std::string wrong = drivers::why_no_move(*context.sheet, by); !wrong.empty()) {
+      table.complain(kStepsKey.key, wrong);
+    }
   }
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "board/bench/simulate/lattice_geometry.h"
 #include "board/bench/simulate/scenario_keys.h"
+#include "core/tubesheet/sheet_places.h"
 #include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
@@ -90,7 +90,8 @@ void PathReader::read_start(TableReader& table) {
   from.y_mm = place[1] + offset[1];
   from.beta_deg = lean[0];
   from.gamma_deg = lean[1];
-  if (const std::string wrong = placed ? why_off_the_sheet(*sheet_, {from.x_mm, from.y_mm}) : "";
+  if (const std::string wrong =
+          placed ? drivers::why_off_the_sheet(*sheet_, {from.x_mm, from.y_mm}) : "";
       !wrong.empty()) {
     table.complain(key, wrong);
   }
@@ -173,7 +174,7 @@ void PathReader::read_rest(TableReader& table) {
   bool claims = false;
   table.optional_switch("claim", claims);
   const ToolPlace& place = path_->end();
-  TubeAddress tube = nearest_address(*sheet_, {place.x_mm, place.y_mm});
+  TubeAddress tube = core::tubesheet::nearest_address(*sheet_, {place.x_mm, place.y_mm});
   if (table.has("claim_tube")) {
     claims = read_tube(table, "claim_tube", tube);
   } else {
@@ -232,7 +233,7 @@ void PathReader::read_tour(TableReader& table) {
     return;
   }
   for (const TubeAddress corner : {a, b}) {
-    if (!drivers::in_ranges(*sheet_, corner)) {
+    if (!core::tubesheet::in_ranges(*sheet_, corner)) {
       table.complain("tour",
                      drivers::address_text(corner) + ", expected " + drivers::ranges_text(*sheet_));
       return;
@@ -289,7 +290,8 @@ bool PathReader::read_tube(TableReader& table, std::string_view key, TubeAddress
 
 bool PathReader::append(TableReader& table, std::string_view key, const PathSegment& segment) {
   if (segment.kind == SegmentKind::kMove) {
-    if (const std::string wrong = why_off_the_sheet(*sheet_, segment.to_mm); !wrong.empty()) {
+    if (const std::string wrong = drivers::why_off_the_sheet(*sheet_, segment.to_mm);
+        !wrong.empty()) {
       table.complain(key, wrong);
       return false;
     }
