@@ -61,6 +61,19 @@ std::array<double, 2> step_lengths_mm(const TubesheetSettings& settings) {
           std::hypot(settings.column_step_mm[0], settings.column_step_mm[1])};
 }
 
+void stretch(TubesheetSettings& settings, double factor) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    settings.row_step_mm[i] *= factor;
+    settings.column_step_mm[i] *= factor;
+  }
+}
+
+double stretch_of(const TubesheetSettings& stretched, const TubesheetSettings& settings) {
+  const auto& [x, y] = settings.row_step_mm;
+  const std::size_t longer = std::abs(x) > std::abs(y) ? 0 : 1;
+  return stretched.row_step_mm[longer] / settings.row_step_mm[longer];
+}
+
 std::array<double, 2> lattice_place(const TubesheetSettings& settings,
                                     const std::array<double, 2>& point_mm) {
   const auto& r = settings.row_step_mm;

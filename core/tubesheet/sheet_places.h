@@ -61,6 +61,13 @@ enum class MoveFault : std::uint8_t {
 /// The lengths of the row step and the column step as they are given, mm.
 [[nodiscard]] std::array<double, 2> step_lengths_mm(const TubesheetSettings& settings);
 
+/// Makes both steps longer by a factor.
+void stretch(TubesheetSettings& settings, double factor);
+
+/// By which factor the steps of `stretched` are longer than those of `settings`.
+[[nodiscard]] double stretch_of(const TubesheetSettings& stretched,
+                                const TubesheetSettings& settings);
+
 /// The lattice's coordinates of a point of the sheet: row and column, with fractions; columns as
 /// rows of even number count them.
 [[nodiscard]] std::array<double, 2> lattice_place(const TubesheetSettings& settings,

@@ -62,8 +62,9 @@ ShortSteps short_steps(const TubesheetSettings& settings) {
   const Step column{{0, 1}, settings.column_step_mm[0], settings.column_step_mm[1]};
   const bool every_other = settings.addresses != AddressParity::kAll;
   ShortSteps steps;
-  steps.a = every_other ? combined(row, 1, column) : row;
-  steps.b = every_other ? combined(row, -1, column) : column;
+  const auto spanning = spanning_steps(settings.addresses);
+  steps.a = combined(combined({}, spanning[0].row, row), spanning[0].column, column);
+  steps.b = combined(combined({}, spanning[1].row, row), spanning[1].column, column);
   if (settings.odd_row_shift != 0.0) {
     steps.two_kinds = true;
     steps.to_odd_rows = steps.a;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "board/bench/simulate/scenario_keys.h"
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
@@ -29,9 +30,8 @@ void read_calibration_error(TableReader& table, Scene& scene) {
   }
   for (std::size_t i = 0; i < 2; ++i) {
     scene.camera.center_px[i] += error.center_px[i];
-    scene.sheet.row_step_mm[i] *= 1.0 + error.pitch_share;
-    scene.sheet.column_step_mm[i] *= 1.0 + error.pitch_share;
   }
+  core::tubesheet::stretch(scene.sheet, 1.0 + error.pitch_share);
   scene.camera.focal_length_mm += error.focal_length_mm;
   scene.camera.horizontal_scale += error.horizontal_scale;
   scene.camera.distortion_per_mm2 += error.distortion_per_mm2;

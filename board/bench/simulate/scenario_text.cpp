@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "board/bench/simulate/scenario_faults.h"
 #include "board/bench/simulate/scenario_keys.h"
 #include "core/base/assert.h"
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/settings/session_keys.h"
 #include "drivers/settings/session_text.h"
 
@@ -22,13 +22,6 @@ using drivers::Scenario;
 using drivers::TomlWriter;
 using drivers::write_key;
 using drivers::write_keys;
-
-/// By how much the true steps are longer than those told, as a share.
-double pitch_share(const core::TubesheetSettings& scene, const core::TubesheetSettings& told) {
-  const auto& [x, y] = told.row_step_mm;
-  const std::size_t longer = std::abs(x) > std::abs(y) ? 0 : 1;
-  return scene.row_step_mm[longer] / told.row_step_mm[longer] - 1.0;
-}
 
 void write_calibration_error(TomlWriter& toml, const Scenario& scenario) {
   const core::rendering::Scene& scene = scenario.scene;
@@ -43,7 +36,7 @@ void write_calibration_error(TomlWriter& toml, const Scenario& scenario) {
                      scene.camera.center_px[1] - told.camera.center_px[1]};
   error.horizontal_scale = scene.camera.horizontal_scale - told.camera.horizontal_scale;
   error.distortion_per_mm2 = scene.camera.distortion_per_mm2 - told.camera.distortion_per_mm2;
-  error.pitch_share = pitch_share(scene.sheet, told.tubesheet);
+  error.pitch_share = core::tubesheet::stretch_of(scene.sheet, told.tubesheet) - 1.0;
   error.bore_mm = scene.sheet.bore_mm - told.tubesheet.bore_mm;
   toml.table("calibration_error");
   write_keys(toml, kCalibrationErrorKeys, error);

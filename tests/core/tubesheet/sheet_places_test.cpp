@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/tubesheet/addresses.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::core::tubesheet {
@@ -103,6 +104,30 @@ TEST(CheckMove, NeedsAnEvenSumOrAnEvenNumberOfRows) {
   EXPECT_EQ(check_move(*sheet, {-1, 3}), MoveFault::kRows);
   sheet->odd_row_shift = 0.0;
   EXPECT_EQ(check_move(*sheet, {-1, 3}), MoveFault::kNone);
+}
+
+TEST(Stretch, MakesBothStepsLongerAndIsFoundAgain) {
+  const auto sheet = oblique();
+  const auto longer = oblique();
+  stretch(*longer, 1.25);
+  EXPECT_EQ(longer->row_step_mm, (std::array<double, 2>{12.5, 25.0}));
+  EXPECT_EQ(longer->column_step_mm, (std::array<double, 2>{27.5, 0.0}));
+  EXPECT_EQ(stretch_of(*longer, *sheet), 1.25);
+}
+
+TEST(SpanningSteps, LeadFromAddressesOfTheNumberingToOthers) {
+  for (const auto addresses :
+       {AddressParity::kAll, AddressParity::kEvenSum, AddressParity::kOddSum}) {
+    const auto steps = spanning_steps(addresses);
+    const TubeAddress from{4, addresses == AddressParity::kOddSum ? 7 : 6};
+    for (const TubeAddress step : steps) {
+      EXPECT_TRUE(exists(addresses, sum(from, step)));
+      EXPECT_TRUE(exists(addresses, difference(from, step)));
+    }
+    // They span a cell as large as the numbering is thin.
+    EXPECT_EQ(std::abs(steps[0].row * steps[1].column - steps[0].column * steps[1].row),
+              addresses == AddressParity::kAll ? 1 : 2);
+  }
 }
 
 TEST(MoveMm, IsTheWayBetweenTubesOfAKind) {
