@@ -1,8 +1,7 @@
-#include "board/bench/campaign/random_fault.h"
-
 #include <algorithm>
 #include <array>
 
+#include "board/bench/campaign/random_parts.h"
 #include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board::campaign {

@@ -1,8 +1,7 @@
-#include "board/bench/campaign/random_plant.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "board/bench/campaign/random_parts.h"
 #include "core/tubesheet/addresses.h"
 #include "core/tubesheet/sheet_places.h"
 #include "core/tubesheet/tubesheet_setup.h"

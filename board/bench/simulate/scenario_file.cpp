@@ -19,10 +19,10 @@
 #include "board/bench/simulate/scenario_scene.h"
 #include "core/base/scalar.h"
 #include "core/session/session.h"
-#include "drivers/settings/disk_files.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_keys.h"
 #include "drivers/settings/session_tables.h"
+#include "drivers/settings/text_files.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "board/bench/simulate/scenario_text.h"
 
 namespace tubesight::board::campaign {
