@@ -1,10 +1,7 @@
 #include "board/bench/pose_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -14,23 +11,16 @@
 #include "core/pose/rotation.h"
 #include "core/pose/tool_answer.h"
 #include "core/verification/position_correction.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board {
 namespace {
 
+using drivers::print;
+
 using core::TubeState;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// Appends as std::printf writes, up to 500 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
-}
 
 double sigma(const PoseRow& row, int i) { return std::sqrt(std::max(0.0, row.covariance(i, i))); }
 

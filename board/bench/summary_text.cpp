@@ -1,28 +1,19 @@
 #include "board/bench/summary_text.h"
 
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <string_view>
 
 #include "core/base/names.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board {
 namespace {
 
+using drivers::print;
+
 using core::FieldTime;
 using core::Reason;
 using core::TrackState;
-
-/// Appends as std::printf writes, up to 500 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
-}
 
 double seconds(FieldTime time) { return std::chrono::duration<double>(time).count(); }
 

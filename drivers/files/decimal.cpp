@@ -1,7 +1,10 @@
 #include "drivers/files/decimal.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <limits>
 
 #include "core/base/assert.h"
@@ -57,6 +60,15 @@ void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denom
     out += '.';
     append_unsigned(out, fraction, static_cast<std::size_t>(digits));
   }
+}
+
+void print(std::string& out, const char* format, ...) {
+  std::array<char, 500> text{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  out += text.data();
 }
 
 void append_whole(std::string& out, std::int64_t value) { append_decimal(out, value, 1, 0); }

@@ -13,6 +13,9 @@ namespace tubesight::drivers {
 void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denominator,
                     std::int32_t digits);
 
+/// Appends as std::printf writes, up to 500 bytes.
+[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...);
+
 /// Appends a whole number.
 void append_whole(std::string& out, std::int64_t value);
 

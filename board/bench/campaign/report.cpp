@@ -2,26 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdarg>
 #include <cstddef>
-#include <cstdio>
 #include <string_view>
 
 #include "board/bench/campaign/binomial_bounds.h"
 #include "board/bench/campaign/report_groups.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board::campaign {
 namespace {
 
-/// Appends as std::printf writes, up to 500 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
-}
+using drivers::print;
 
 long long count(std::int64_t value) { return value; }
 

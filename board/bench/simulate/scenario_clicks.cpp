@@ -5,8 +5,10 @@
 
 #include "board/bench/simulate/scenario_keys.h"
 #include "board/bench/simulate/tubes_in_view.h"
+#include "core/base/trigonometry.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/simulated/dice.h"
+#include "drivers/simulated/tool_motion.h"
 
 namespace tubesight::board {
 
@@ -42,7 +44,7 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
 std::string make_clicks(const ClickWish& wish, const drivers::Scenario& scenario,
                         drivers::SimulatedWorld& world,
                         decltype(core::StartSettings::tubes)& clicks) {
-  const auto wanted = core::FieldTime(std::llround(wish.at_s * 1e9));
+  const auto wanted = drivers::instant_of(wish.at_s);
   std::int64_t slot = 0;
   while (slot < world.slots() && (world.slot_time(slot) < wanted || world.faults_at(slot).lost)) {
     ++slot;
@@ -74,7 +76,7 @@ std::string make_clicks(const ClickWish& wish, const drivers::Scenario& scenario
   clicks.clear();
   drivers::Dice dice(
       drivers::derived_seed(scenario.seed, 0xC11C0000U + static_cast<std::uint64_t>(slot)));
-  constexpr double kTurn = 6.283185307179586;
+  constexpr double kTurn = 2.0 * core::kPi;
   for (const TubeInView& tube : chosen) {
     const double direction = kTurn * dice.share();
     const auto& [u, v] = tube.image.ellipse_px;

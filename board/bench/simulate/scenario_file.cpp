@@ -18,6 +18,7 @@
 #include "board/bench/simulate/scenario_robot.h"
 #include "board/bench/simulate/scenario_scene.h"
 #include "core/base/scalar.h"
+#include "core/rendering/renderer_limits.h"
 #include "core/session/session.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_keys.h"
@@ -249,7 +250,9 @@ void ScenarioReading::play() {
   if (!world->configure(*to_)) {
     complain({},
              "scenario: camera, sheet and looks cannot be drawn together, expected a picture of "
-             "at most 1024 pixels a side and tube-ends before the camera");
+             "at most " +
+                 std::to_string(core::rendering::kMaxPictureSide) +
+                 " pixels a side and tube-ends before the camera");
     return;
   }
   if (!std::make_unique<core::session::Session<core::FixedPoint>>()->configure(to_->told)) {

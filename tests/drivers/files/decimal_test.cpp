@@ -1,6 +1,7 @@
 #include "drivers/files/decimal.h"
 
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,19 @@ TEST(AppendDecimal, ServesTheLimits) {
 TEST(AppendDecimal, PrintsThirtiethsOfASecond) {
   EXPECT_EQ(decimal(16666667, 1000000000, 6), "0.016667");
   EXPECT_EQ(decimal(3083333333, 1000000000, 6), "3.083333");
+}
+
+TEST(RoundedText, HasSoManySignificantDigits) {
+  EXPECT_EQ(rounded_text(1234.56), "1235");
+  EXPECT_EQ(rounded_text(0.0123456), "0.01235");
+  EXPECT_EQ(rounded_text(-25.40049, 5), "-25.4");
+  EXPECT_EQ(rounded_text(123456.0, 5), "1.2346e+05");
+}
+
+TEST(Print, AppendsAsPrintfWrites) {
+  std::string text = "a";
+  print(text, " %d %.2f %s", 7, 0.125, "b");
+  EXPECT_EQ(text, "a 7 0.12 b");
 }
 
 TEST(ParseDecimal, ReadsExactly) {
