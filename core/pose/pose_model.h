@@ -7,6 +7,7 @@
 #include "core/base/transform.h"
 #include "core/camera/camera_model.h"
 #include "core/tubesheet/lattice.h"
+#include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::core::pose {
 
@@ -21,12 +22,8 @@ struct PoseModel {
 
   /// Centre of a tube in the sheet frame, mm.
   [[nodiscard]] Eigen::Vector2d center_mm(TubeAddress address) const {
-    const tubesheet::Lattice<double>::Parameters& p = lattice.parameters();
-    const double shifted = tubesheet::in_odd_row(address) ? 1.0 : 0.0;
-    return origin_mm +
-           static_cast<double>(address.row) * Eigen::Vector2d(p.row_step.x, p.row_step.y) +
-           static_cast<double>(address.column) * Eigen::Vector2d(p.column_step.x, p.column_step.y) +
-           shifted * Eigen::Vector2d(p.odd_row_shift.x, p.odd_row_shift.y);
+    const auto at = tubesheet::center_mm(lattice, {origin_mm.x(), origin_mm.y()}, address);
+    return {at[0], at[1]};
   }
 };
 

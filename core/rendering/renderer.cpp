@@ -3,41 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rendering/scene_ranges.h"
 #include "core/rendering/view.h"
 
 namespace tubesight::core::rendering {
 namespace {
 
-bool within(double value, double low, double high) {
-  return value >= low && value <= high;  // false for NaN
-}
-
 bool possible(const Scene& scene) {
-  const SheetLook& look = scene.look;
-  const LampLook& lamp = scene.lamp;
-  const SensorLook& sensor = scene.sensor;
-  const GuidetubeLook& tube = scene.guidetube;
-  return within(look.plate, 0.01, 1.0) && within(look.gloss, 0.0, 10.0) &&
-         within(look.texture, 0.0, 0.5) && within(look.stains, 0.0, 0.5) &&
-         within(look.weld, 0.0, 4.0) && within(look.weld_mm, 0.0, 20.0) &&
-         within(look.fillet_mm, 0.1, 20.0) && within(look.fillet_height_mm, 0.0, 20.0) &&
-         within(look.land_mm, 0.0, look.fillet_mm) && within(look.wall, 0.0, 1.0) &&
-         within(look.bore_spread_mm, 0.0, 1.0) && within(look.nicked, 0.0, 1.0) &&
-         within(look.nick_mm, 0.0, 5.0) && within(look.boron, 0.0, 1.0) &&
-         within(look.plug, 0.0, 4.0) && within(look.plug_hole, 0.0, 1.0) &&
-         within(look.plug_height_mm, 0.0, 20.0) && within(lamp.ring_radius_mm, 0.0, 500.0) &&
-         within(lamp.below_tip_mm, 0.0, 1000.0) && within(lamp.strength, 0.0, 100.0) &&
-         within(lamp.tilt_deg, -80.0, 80.0) && within(lamp.beam, 0.0, 8.0) &&
-         within(lamp.ambient, 0.0, 1.0) && within(lamp.led_strength, 0.0, 100.0) &&
-         within(sensor.blur_px, 0.3, 4.0) && within(sensor.vignetting, 0.0, 1.0) &&
-         within(sensor.veil, 0.0, 1.0) && within(sensor.blooming, 0.0, 1.0) &&
-         within(sensor.blooming_px, 0.0, 200.0) && within(sensor.gain, 0.01, 100.0) &&
-         within(sensor.offset, -255.0, 255.0) && within(sensor.saturation, 1.0, 255.0) &&
-         within(sensor.shot_noise, 0.0, 10.0) && within(sensor.read_noise, 0.0, 100.0) &&
-         within(sensor.emi_share, 0.0, 1.0) && within(sensor.emi_amplitude, 0.0, 255.0) &&
-         within(sensor.salt_and_pepper, 0.0, 1.0) && within(tube.radius_mm, 0.0, 100.0) &&
-         within(tube.length_mm, 0.0, 1000.0) && within(tube.reflectance, 0.0, 4.0) &&
-         within(tube.shadow, 0.0, 1.0);
+  return within(kSheetLookRanges, scene.look) && within(kLampLookRanges, scene.lamp) &&
+         within(kSensorLookRanges, scene.sensor) && within(kGuidetubeLookRanges, scene.guidetube) &&
+         scene.look.land_mm <= scene.look.fillet_mm;
 }
 
 void fill_rays(const Projection& projection, std::int32_t v, std::int32_t first, std::int32_t last,

@@ -12,6 +12,9 @@ namespace {
 enum Use : std::uint32_t { kBore = 1, kPlugKind = 2 };
 
 /// The entry of a list sorted by address; nullptr when there is none.
+// Which addresses there are and where their tubes stand is written anew here: a mistake in
+// core/tubesheet would hide if the pictures that test it were drawn with it.
+
 template <typename List>
 auto find_address(const List& list, TubeAddress address) -> decltype(list.begin()) {
   const auto* found = std::lower_bound(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/base/settings.h"
@@ -16,6 +17,15 @@ namespace tubesight::core::tubesheet {
 [[nodiscard]] constexpr bool exists(AddressParity addresses, TubeAddress address) {
   const bool odd = ((address.row ^ address.column) & 1) != 0;
   return addresses == AddressParity::kAll || odd == (addresses == AddressParity::kOddSum);
+}
+
+/// Two short steps that lead from each address of a numbering to others of it, and by way of them
+/// to all; perhaps not the shortest.
+[[nodiscard]] constexpr std::array<TubeAddress, 2> spanning_steps(AddressParity addresses) {
+  if (addresses == AddressParity::kAll) {
+    return {{{1, 0}, {0, 1}}};
+  }
+  return {{{1, 1}, {1, -1}}};
 }
 
 [[nodiscard]] constexpr TubeAddress sum(TubeAddress a, TubeAddress b) {

@@ -8,6 +8,7 @@
 
 #include "core/base/instantiate.h"
 #include "core/base/static_vector.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::core::tubesheet {
 namespace {
@@ -61,8 +62,9 @@ ShortSteps short_steps(const TubesheetSettings& settings) {
   const Step column{{0, 1}, settings.column_step_mm[0], settings.column_step_mm[1]};
   const bool every_other = settings.addresses != AddressParity::kAll;
   ShortSteps steps;
-  steps.a = every_other ? combined(row, 1, column) : row;
-  steps.b = every_other ? combined(row, -1, column) : column;
+  const auto spanning = spanning_steps(settings.addresses);
+  steps.a = combined(combined({}, spanning[0].row, row), spanning[0].column, column);
+  steps.b = combined(combined({}, spanning[1].row, row), spanning[1].column, column);
   if (settings.odd_row_shift != 0.0) {
     steps.two_kinds = true;
     steps.to_odd_rows = steps.a;
@@ -173,10 +175,11 @@ Result<Lattice<S>> make_lattice(const TubesheetSettings& settings) {
   const Step column{{0, 1}, settings.column_step_mm[0], settings.column_step_mm[1]};
   // Below 1 mm even every other address would leave steps under 2 mm; NaN is refused too.
   const auto fits = [](const Step& step) {
-    return step.length2() >= 1.0 && step.length2() <= 250000.0;
+    return step.length2() >= kShortestStep_mm * kShortestStep_mm &&
+           step.length2() <= kLongestStep_mm * kLongestStep_mm;
   };
   const double share = settings.odd_row_shift;
-  if (!fits(row) || !fits(column) || !(share >= -1.0 && share <= 1.0)) {
+  if (!fits(row) || !fits(column) || !(share >= -kLargestShift && share <= kLargestShift)) {
     return Unexpected(Error::kOutOfRange);
   }
   const double area = row.x * column.y - row.y * column.x;
@@ -219,15 +222,19 @@ std::array<double, 2> center_mm(const TubesheetSettings& settings, TubeAddress a
   return at;
 }
 
+std::array<double, 2> center_mm(const Lattice<double>& lattice,
+                                const std::array<double, 2>& origin_mm, TubeAddress address) {
+  const Lattice<double>::Parameters& p = lattice.parameters();
+  const double shifted = in_odd_row(address) ? 1.0 : 0.0;
+  return {origin_mm[0] + address.row * p.row_step.x + address.column * p.column_step.x +
+              shifted * p.odd_row_shift.x,
+          origin_mm[1] + address.row * p.row_step.y + address.column * p.column_step.y +
+              shifted * p.odd_row_shift.y};
+}
+
 double shortest_step_mm(const TubesheetSettings& settings) {
   const ShortSteps steps = short_steps(settings);
   return shortest_of(steps, steps_around(steps));
-}
-
-bool is_symmetry(const TubesheetSettings& settings, TubeAddress step) {
-  const bool keeps_parity =
-      settings.addresses == AddressParity::kAll || exists(AddressParity::kEvenSum, step);
-  return keeps_parity && (settings.odd_row_shift == 0.0 || !in_odd_row(step));
 }
 
 #define TUBESIGHT_INSTANTIATE(S) \

@@ -19,11 +19,13 @@ template <Scalar S>
 [[nodiscard]] std::array<double, 2> center_mm(const TubesheetSettings& settings,
                                               TubeAddress address);
 
+/// The same by a lattice made, whose tube (0, 0) stands at `origin_mm`.
+[[nodiscard]] std::array<double, 2> center_mm(const Lattice<double>& lattice,
+                                              const std::array<double, 2>& origin_mm,
+                                              TubeAddress address);
+
 /// Distance between the nearest two tubes of the numbering, whatever stands there, mm. The steps
 /// must have a length and not be parallel.
 [[nodiscard]] double shortest_step_mm(const TubesheetSettings& settings);
-
-/// Whether the lattice, moved by these rows and columns, lies on itself.
-[[nodiscard]] bool is_symmetry(const TubesheetSettings& settings, TubeAddress step);
 
 }  // namespace tubesight::core::tubesheet

@@ -1,7 +1,10 @@
 #include "drivers/files/decimal.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdarg>
+#include <cstdio>
 #include <limits>
 
 #include "core/base/assert.h"
@@ -59,6 +62,15 @@ void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denom
   }
 }
 
+void print(std::string& out, const char* format, ...) {
+  std::array<char, 500> text{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  va_end(arguments);
+  out += text.data();
+}
+
 void append_whole(std::string& out, std::int64_t value) { append_decimal(out, value, 1, 0); }
 
 std::string number_text(double value) {
@@ -71,6 +83,13 @@ std::string number_text(double value) {
   const auto end = std::to_chars(text, text + sizeof text, value,
                                  plain ? std::chars_format::fixed : std::chars_format::general)
                        .ptr;
+  return {text, end};
+}
+
+std::string rounded_text(double value, int digits) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
   return {text, end};
 }
 

@@ -13,12 +13,18 @@ namespace tubesight::drivers {
 void append_decimal(std::string& out, std::int64_t numerator, std::int64_t denominator,
                     std::int32_t digits);
 
+/// Appends as std::printf writes, up to 500 bytes.
+[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...);
+
 /// Appends a whole number.
 void append_whole(std::string& out, std::int64_t value);
 
 /// The shortest decimal that reads back as the same number; with an exponent below 10^-6 and from
 /// 10^9 on, where a plain one would be a row of zeros.
 [[nodiscard]] std::string number_text(double value);
+
+/// For numbers that were calculated: so many significant digits, 1..9.
+[[nodiscard]] std::string rounded_text(double value, int digits = 4);
 
 /// Reads a decimal number ("-12", "3.5", ".5") as a multiple of 10^-digits, exactly.
 ///

@@ -1,14 +1,14 @@
 #include "drivers/settings/session_checks.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "core/tubesheet/addresses.h"
+#include "core/tubesheet/sheet_places.h"
 #include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/files/decimal.h"
+#include "drivers/settings/session_keys.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -17,20 +17,11 @@ using core::TubeAddress;
 using core::tubesheet::center_mm;
 using Vector = std::array<double, 2>;
 
-/// For numbers that were calculated: four significant digits.
-std::string rounded_text(double value) {
-  char text[40];
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr;
-  return {text, end};
-}
-
 Vector plus(const Vector& a, const Vector& b, double times) {
   return {a[0] + times * b[0], a[1] + times * b[1]};
 }
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
 double cross(const Vector& a, const Vector& b) { return a[0] * b[1] - a[1] * b[0]; }
-double length(const Vector& a) { return std::hypot(a[0], a[1]); }
 
 /// Twice the signed area of a triangle over the square of its longest side: 0.87 when equilateral,
 /// 0 when the corners lie in one line.
@@ -66,11 +57,6 @@ bool in_picture(const core::CameraSettings& camera, const std::array<double, 2>&
          point_px[1] <= camera.height_px - 1;
 }
 
-bool in_ranges(const core::TubesheetSettings& tubesheet, TubeAddress address) {
-  return address.row >= tubesheet.rows[0] && address.row <= tubesheet.rows[1] &&
-         address.column >= tubesheet.columns[0] && address.column <= tubesheet.columns[1];
-}
-
 std::string why_picture_folds(const core::CameraSettings& camera) {
   const double pixel_width_mm =
       camera.cell_width_mm / camera.horizontal_scale * camera.sensor_columns / camera.frame_columns;
@@ -99,16 +85,14 @@ std::string why_picture_folds(const core::CameraSettings& camera) {
 }
 
 std::string why_no_lattice(const core::TubesheetSettings& tubesheet) {
-  const Vector& row = tubesheet.row_step_mm;
-  const Vector& column = tubesheet.column_step_mm;
-  constexpr double kShortestStep_mm = 1.0;
-  constexpr double kLeastSine = 0.1;
-  if (length(row) < kShortestStep_mm || length(column) < kShortestStep_mm) {
-    return "a step below 1 mm, expected row_step_mm and column_step_mm from tube to tube";
-  }
-  if (std::abs(cross(row, column)) < kLeastSine * length(row) * length(column)) {
-    return "the steps lie in one line, expected row_step_mm and column_step_mm at least 6 degrees "
-           "apart";
+  switch (core::tubesheet::check_steps(tubesheet)) {
+    case core::tubesheet::StepsFault::kNone: break;
+    case core::tubesheet::StepsFault::kShort:
+      return "a step below 1 mm, expected row_step_mm and column_step_mm from tube to tube";
+    case core::tubesheet::StepsFault::kOneLine:
+      return "the steps lie in one line, expected row_step_mm and column_step_mm at least 6 "
+             "degrees "
+             "apart";
   }
   return {};
 }
@@ -120,9 +104,8 @@ std::string why_bore_too_wide(const core::TubesheetSettings& tubesheet) {
   }
   // Steps of which one alone is too short, and addresses missing between: shares of a step written
   // as steps. There is a better way to say it.
-  const bool shares =
-      !tubesheet.missing.empty() &&
-      tubesheet.bore_mm < std::max(length(tubesheet.row_step_mm), length(tubesheet.column_step_mm));
+  const auto [row_mm, column_mm] = core::tubesheet::step_lengths_mm(tubesheet);
+  const bool shares = !tubesheet.missing.empty() && tubesheet.bore_mm < std::max(row_mm, column_mm);
   return number_text(tubesheet.bore_mm) + ", expected less than the " + rounded_text(step_mm) +
          " mm between neighbouring tubes" +
          (shares ? ", missing ones included (a sheet of shifted rows has an odd_row_shift)" : "");
@@ -165,16 +148,11 @@ std::string why_fields_too_seldom(const core::MotionSettings& motion,
 }
 
 std::string why_sheet_too_large(const core::TubesheetSettings& tubesheet) {
-  const auto [first, last] = tubesheet.rows;
-  // With a shift the farthest may stand in the first or last but one row.
-  for (const std::int32_t row :
-       {first, last, std::min(first + 1, last), std::max(last - 1, first)}) {
-    for (const std::int32_t column : tubesheet.columns) {
-      const Vector place = center_mm(tubesheet, {row, column});
-      if (std::max(std::abs(place[0]), std::abs(place[1])) > kLargestSheet_mm) {
-        return address_text({row, column}) + " would stand at (" + rounded_text(place[0]) + ", " +
-               rounded_text(place[1]) + ") mm, expected within 30000 mm of the origin";
-      }
+  for (const TubeAddress address : core::tubesheet::outermost(tubesheet)) {
+    const Vector place = center_mm(tubesheet, address);
+    if (std::max(std::abs(place[0]), std::abs(place[1])) > kLargestSheet_mm) {
+      return address_text(address) + " would stand at (" + rounded_text(place[0]) + ", " +
+             rounded_text(place[1]) + ") mm, expected within 30000 mm of the origin";
     }
   }
   return {};
@@ -192,19 +170,40 @@ std::optional<TubeAddress> listed_twice(const core::TubesheetSettings& tubesheet
 }
 
 std::string why_no_tube(const core::TubesheetSettings& tubesheet, TubeAddress address) {
-  if (!in_ranges(tubesheet, address)) {
-    return address_text(address) + " is outside the tubesheet, expected " + ranges_text(tubesheet);
-  }
-  if (!core::tubesheet::exists(tubesheet.addresses, address)) {
-    return address_text(address) + " does not exist, expected an " +
-           (tubesheet.addresses == core::AddressParity::kEvenSum ? "even" : "odd") +
-           " sum of row and column";
-  }
-  const auto& missing = tubesheet.missing;
-  if (std::find(missing.begin(), missing.end(), address) != missing.end()) {
-    return address_text(address) + " is listed as missing, expected a tube that stands";
+  switch (core::tubesheet::check_address(tubesheet, address)) {
+    case core::tubesheet::AddressFault::kNone: break;
+    case core::tubesheet::AddressFault::kOutside:
+      return address_text(address) + " is outside the tubesheet, expected " +
+             ranges_text(tubesheet);
+    case core::tubesheet::AddressFault::kNotNumbered:
+      return address_text(address) + " does not exist, expected " +
+             std::string(kAddressRules[static_cast<std::size_t>(tubesheet.addresses)]);
+    case core::tubesheet::AddressFault::kMissing:
+      return address_text(address) + " is listed as missing, expected a tube that stands";
   }
   return {};
+}
+
+std::string why_no_move(const core::TubesheetSettings& tubesheet, TubeAddress by) {
+  switch (core::tubesheet::check_move(tubesheet, by)) {
+    case core::tubesheet::MoveFault::kNone: break;
+    case core::tubesheet::MoveFault::kRows:
+      return "an odd number of rows, expected an even one on this sheet";
+    case core::tubesheet::MoveFault::kSum:
+      return "an odd sum of rows and columns, expected an even one on this sheet";
+  }
+  return {};
+}
+
+std::string why_off_the_sheet(const core::TubesheetSettings& tubesheet,
+                              const std::array<double, 2>& point_mm) {
+  if (core::tubesheet::on_the_sheet(tubesheet, point_mm)) {
+    return {};
+  }
+  const auto at = core::tubesheet::lattice_place(tubesheet, point_mm);
+  return "(" + rounded_text(point_mm[0], 5) + ", " + rounded_text(point_mm[1], 5) +
+         ") mm is off the sheet, at row " + rounded_text(at[0], 5) + " and column " +
+         rounded_text(at[1], 5) + ", expected " + ranges_text(tubesheet);
 }
 
 std::string why_clicks_contradict(const core::StartSettings& start,

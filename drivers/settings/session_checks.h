@@ -20,7 +20,6 @@ inline constexpr double kLargestSheet_mm = 30000.0;
 
 [[nodiscard]] bool in_picture(const core::CameraSettings& camera,
                               const std::array<double, 2>& point_px);
-[[nodiscard]] bool in_ranges(const core::TubesheetSettings& tubesheet, core::TubeAddress address);
 
 /// The mapping from distorted to ideal places must grow outwards as far as the picture reaches, or
 /// it has no inverse there: 1 + 3 k r^2 + 5 k2 r^4 > 0, the derivative of r (1 + k r^2 + k2 r^4).
@@ -49,6 +48,14 @@ inline constexpr double kLargestSheet_mm = 30000.0;
 /// A clicked tube must exist.
 [[nodiscard]] std::string why_no_tube(const core::TubesheetSettings& tubesheet,
                                       core::TubeAddress address);
+
+/// Moved by these rows and columns the lattice must lie on itself.
+[[nodiscard]] std::string why_no_move(const core::TubesheetSettings& tubesheet,
+                                      core::TubeAddress by);
+
+/// Where the tool may be: up to half a step beyond the last rows and columns.
+[[nodiscard]] std::string why_off_the_sheet(const core::TubesheetSettings& tubesheet,
+                                            const std::array<double, 2>& point_mm);
 
 /// Clicks must have addresses of their own, must not lie in one line, neither in the picture nor on
 /// the sheet, and must go round the same way in both: seen from the camera the sheet is not

@@ -3,11 +3,11 @@
 #include <array>
 #include <string_view>
 
-#include "drivers/settings/disk_files.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_tables.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/settings/table_reader.h"
+#include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
 namespace {

@@ -286,12 +286,18 @@ void TableReader::finish() {
 }
 
 void TableReader::complain(std::string_view key, const std::string& text) {
+  wrong_.emplace_back(key);
   problems_->push_back({place_of(key), path(key) + ": " + text});
 }
 
 void TableReader::complain_entry(std::string_view key, std::size_t index, const toml::node& entry,
                                  const std::string& text) {
+  wrong_.emplace_back(key);
   problems_->push_back({place_of(entry), path(key) + "[" + std::to_string(index) + "]: " + text});
+}
+
+bool TableReader::sound(std::string_view key) const {
+  return std::find(wrong_.begin(), wrong_.end(), key) == wrong_.end();
 }
 
 SettingsPlace TableReader::place_of(std::string_view key) const {
@@ -318,6 +324,7 @@ const toml::node* TableReader::get(std::string_view key, const std::string& expe
   ignore(key);
   const toml::node* const node = table_->get(key);
   if (node == nullptr) {
+    wrong_.emplace_back(key);
     problems_->push_back({place_, path(key) + ": missing, expected " + expected});
   }
   return node;

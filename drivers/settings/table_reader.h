@@ -78,6 +78,10 @@ class TableReader {
   void complain_entry(std::string_view key, std::size_t index, const toml::node& entry,
                       const std::string& text);
 
+  /// Whether nothing was wrong with a key that was read: it is there as it should be, or it may be
+  /// left out and is.
+  [[nodiscard]] bool sound(std::string_view key) const;
+
   /// Where a node stands.
   [[nodiscard]] SettingsPlace place_of(const toml::node& node) const;
 
@@ -100,6 +104,7 @@ class TableReader {
   std::string name_;
   SettingsProblems* problems_;
   std::vector<std::string> known_;
+  std::vector<std::string> wrong_;  ///< keys that problems were about
 };
 
 /// Two whole numbers [row, column]; false for anything else.

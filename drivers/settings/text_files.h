@@ -16,4 +16,11 @@ class TextFiles {
                                                 std::string& message) = 0;
 };
 
+/// Settings files of the file system, up to 16 MiB each.
+class DiskFiles final : public TextFiles {
+ public:
+  [[nodiscard]] core::Result<void> read(const std::string& path, std::string& text,
+                                        std::string& message) override;
+};
+
 }  // namespace tubesight::drivers

@@ -10,8 +10,6 @@
 namespace tubesight::drivers {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Rotation by an angle about an axis of any length [Rodrigues].
 Eigen::Matrix3d rotation_about(const std::array<double, 3>& axis, double angle_rad) {
   const Eigen::Vector3d direction = Eigen::Vector3d(axis[0], axis[1], axis[2]).normalized();
@@ -87,10 +85,10 @@ void apply(const Fault& fault, const FieldSlot& slot, FieldFaults& to) {
       break;
     case FaultKind::kKnock:
       to.knocked = true;
-      to.knock =
-          core::Transform<core::frames::Camera, core::frames::Camera>(
-              rotation_about(fault.axis, fault.angle_deg * kPi / 180.0), Eigen::Vector3d::Zero()) *
-          to.knock;
+      to.knock = core::Transform<core::frames::Camera, core::frames::Camera>(
+                     rotation_about(fault.axis, fault.angle_deg * core::kPi / 180.0),
+                     Eigen::Vector3d::Zero()) *
+                 to.knock;
       break;
     case FaultKind::kJump:
       to.jump[0] += fault.rows;
@@ -133,7 +131,7 @@ core::Transform<core::frames::Tool, core::frames::Tool> shake_at(std::span<const
     std::array<double, 3> turn{};
     for (std::size_t i = 0; i < 3; ++i) {
       const double number = static_cast<double>(i);
-      const double angle_rad = 2.0 * kPi * fault.frequency_hz * since_s;
+      const double angle_rad = 2.0 * core::kPi * fault.frequency_hz * since_s;
       by[i] = envelope * fault.shake_mm[i] * std::sin(angle_rad * (1.0 + 0.13 * number) + number);
       turn[i] =
           envelope * fault.shake_deg[i] * std::cos(angle_rad * (1.07 - 0.11 * number) + number);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/simulated/dice.h"
 
 namespace tubesight::drivers {
@@ -20,14 +21,6 @@ using core::Unexpected;
 constexpr double kShortest_s = 1e-4;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-
-double seconds(core::FieldTime time) { return static_cast<double>(time.count()) * 1e-9; }
-
-std::array<double, 2> steps_mm(const core::TubesheetSettings& sheet,
-                               const std::array<std::int32_t, 2>& by) {
-  return {by[0] * sheet.row_step_mm[0] + by[1] * sheet.column_step_mm[0],
-          by[0] * sheet.row_step_mm[1] + by[1] * sheet.column_step_mm[1]};
-}
 
 core::PixelBox window_of(const Scenario& scenario) {
   const std::int32_t margin = scenario.video.window_margin_px;
@@ -117,8 +110,8 @@ core::FieldTime SimulatedWorld::slot_time(std::int64_t slot) const {
 FieldSlot SimulatedWorld::slot_at(std::int64_t slot) const {
   const std::int64_t first = interlaced_ ? slot - slot % 2 : slot;
   const std::int64_t fields_a_frame = interlaced_ ? 2 : 1;
-  return {seconds(slot_time(slot)), seconds(slot_time(first)), seconds(slot_time(1)),
-          seconds(slot_time(slot - 1)), seconds(slot_time(first - fields_a_frame))};
+  return {seconds_of(slot_time(slot)), seconds_of(slot_time(first)), seconds_of(slot_time(1)),
+          seconds_of(slot_time(slot - 1)), seconds_of(slot_time(first - fields_a_frame))};
 }
 
 Parity SimulatedWorld::parity_of(std::int64_t slot) const {
@@ -132,7 +125,8 @@ Parity SimulatedWorld::parity_of(std::int64_t slot) const {
 SimulatedWorld::SheetTool SimulatedWorld::pose_at(double time_s, const FieldFaults& faults) {
   const SheetTool pose =
       motion_ != nullptr ? motion_->pose_at(time_s) : path_.state_at(time_s).T_sheet_tool;
-  const auto jump_mm = steps_mm(scenario_->scene.sheet, faults.jump);
+  const auto jump_mm =
+      core::tubesheet::move_mm(scenario_->scene.sheet, {faults.jump[0], faults.jump[1]});
   const core::Transform<core::frames::Sheet, core::frames::Sheet> jump(
       Eigen::Matrix3d::Identity(), Eigen::Vector3d(jump_mm[0], jump_mm[1], 0.0));
   return jump * pose * shake_at(scenario_->faults, time_s);
@@ -250,7 +244,7 @@ bool SimulatedWorld::hits(const Fault& fault) const {
   constexpr std::int64_t kBefore = 3;
   constexpr std::int64_t kAfter = 5;
   const auto about = static_cast<std::int64_t>(
-      std::min(fault.at_s / seconds(slot_time(1)), static_cast<double>(slots_)));
+      std::min(fault.at_s / seconds_of(slot_time(1)), static_cast<double>(slots_)));
   const std::int64_t to = std::min(slots_, about + kAfter);
   for (std::int64_t slot = std::max<std::int64_t>(0, about - kBefore); slot < to; ++slot) {
     if (faults_of({&fault, 1}, slot_at(slot)).has(fault.kind)) {
@@ -365,7 +359,7 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
 
 /// A lag of the first order over one field.
 void SimulatedWorld::warm_lamp() {
-  const double period_s = seconds(slot_time(1));
+  const double period_s = seconds_of(slot_time(1));
   const double level = lamp_permille_ / 1000.0;
   const double lag_s = scenario_->light.lag_s;
   shine_ = lag_s > 0.0 ? shine_ + (level - shine_) * (period_s / (period_s + lag_s)) : level;

@@ -13,6 +13,11 @@ namespace tubesight::drivers {
   return core::FieldTime(std::llround(seconds * 1e9));
 }
 
+/// The scenario's second of an instant.
+[[nodiscard]] inline double seconds_of(core::FieldTime time) {
+  return static_cast<double>(time.count()) * 1e-9;
+}
+
 /// Moves the tool in place of a scenario's path: a simulated robot.
 class ToolMotion {
  public:

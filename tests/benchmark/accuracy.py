@@ -78,12 +78,14 @@ def share(part, whole):
 
 
 def shortest_step_mm(sheet):
-    """The distance of the nearest two addresses that exist."""
+    """The distance of the nearest two addresses that exist; the judge's own, not the program's."""
     row, column = sheet["row_step_mm"], sheet["column_step_mm"]
     every_other = sheet.get("addresses", "all") != "all"
+    shift = sheet.get("odd_row_shift", 0.0)  # from an even row to an odd one; back is the opposite
     steps = [(r, c) for r in range(-3, 4) for c in range(-3, 4)
              if (r, c) != (0, 0) and not (every_other and (r + c) % 2)]
-    return min(math.hypot(*(r * row[i] + c * column[i] for i in (0, 1))) for r, c in steps)
+    return min(math.hypot(*(r * row[i] + (c + r % 2 * shift) * column[i] for i in (0, 1)))
+               for r, c in steps)
 
 
 def field_number(line, scan):
@@ -314,6 +316,9 @@ def self_test():
     if shortest_step_mm({"row_step_mm": [0.0, 8.0], "column_step_mm": [6.0, 0.0],
                          "addresses": "even-sum"}) != 10.0:
         wrong.append("shortest step of every other address: expected 10 mm")
+    if shortest_step_mm({"row_step_mm": [0.0, 12.0], "column_step_mm": [18.0, 0.0],
+                         "odd_row_shift": 0.5}) != 15.0:
+        wrong.append("shortest step of shifted rows: expected 15 mm")
     for line in wrong:
         print(line)
     print(f"accuracy --self-test: {len(wrong)} problems in {len(EXPECTED)} figures")

@@ -19,9 +19,7 @@
 #include <vector>
 
 #include "board/bench/campaign/move_run.h"
-#include "board/bench/campaign/random_camera.h"
-#include "board/bench/campaign/random_clicks.h"
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
 #include "core/tubesheet/tubesheet_setup.h"
 #include "tests/benchmark/line_plot.h"

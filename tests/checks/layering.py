@@ -45,7 +45,7 @@ MAY_INCLUDE = {
     # share (places and messages), and is the library that a recording as a frame grabber stands on.
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
-    "drivers/simulated": BASE + ["hal", "core/rendering", "core/kinematics"],
+    "drivers/simulated": BASE + ["hal", "core/tubesheet", "core/rendering", "core/kinematics"],
 }
 ANY_DRIVER = BASE + ["hal"]
 # What all boards share. It knows the ports and no adapter, so that any board can bring its own.

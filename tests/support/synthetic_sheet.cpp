@@ -178,6 +178,7 @@ std::array<double, 2> SyntheticSheet::axis_point(const ToolPlace& place) const {
           place.y_mm + place.height_mm * R[1][2] / R[2][2]};
 }
 
+// The numbering is the oracle's own: core/tubesheet is what it judges.
 std::array<double, 2> SyntheticSheet::center_of(TubeAddress address) const {
   const double column = address.column + (address.row % 2 == 0 ? 0.0 : odd_row_shift_);
   return {origin_mm_[0] + address.row * row_step_mm_[0] + column * column_step_mm_[0],

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "board/bench/script/simulated_box.h"
 
 namespace tubesight::board::campaign {

@@ -1,10 +1,8 @@
-#include "board/bench/campaign/random_camera.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 
 namespace tubesight::board::campaign {
 namespace {

@@ -1,12 +1,10 @@
-#include "board/bench/campaign/random_clicks.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board::campaign {

@@ -1,9 +1,8 @@
-#include "board/bench/campaign/random_fault.h"
-
 #include <algorithm>
 #include <array>
 
-#include "core/tubesheet/tubesheet_setup.h"
+#include "board/bench/campaign/random_parts.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -106,7 +105,8 @@ class FaultDrawing {
       fault.rows = random_.whole(-2, 2);
       fault.columns = random_.whole(-2, 2);
       exists = (fault.rows != 0 || fault.columns != 0) &&
-               core::tubesheet::is_symmetry(scenario_.scene.sheet, {fault.rows, fault.columns});
+               core::tubesheet::check_move(scenario_.scene.sheet, {fault.rows, fault.columns}) ==
+                   core::tubesheet::MoveFault::kNone;
     }
   }
 

@@ -1,10 +1,6 @@
 #include "board/bench/campaign/random_move.h"
 
-#include "board/bench/campaign/random_camera.h"
-#include "board/bench/campaign/random_clicks.h"
-#include "board/bench/campaign/random_fault.h"
-#include "board/bench/campaign/random_path.h"
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
 
 namespace tubesight::board::campaign {

@@ -1,11 +1,9 @@
-#include "board/bench/campaign/random_path.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
-#include "board/bench/campaign/random_plant.h"
+#include "board/bench/campaign/random_parts.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board::campaign {

@@ -1,9 +1,9 @@
-#include "board/bench/campaign/random_plant.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "board/bench/campaign/random_parts.h"
 #include "core/tubesheet/addresses.h"
+#include "core/tubesheet/sheet_places.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board::campaign {
@@ -139,12 +139,11 @@ void draw_plant(const Stratum& stratum, RandomSource& random, Scenario& scenario
 }
 
 double pitch_mm(const TubesheetSettings& sheet) {
-  const auto& r = sheet.row_step_mm;
-  const auto& c = sheet.column_step_mm;
-  if (sheet.addresses == AddressParity::kAll) {
-    return std::min(std::hypot(r[0], r[1]), std::hypot(c[0], c[1]));
-  }
-  return std::hypot(r[0] + c[0], r[1] + c[1]);
+  // Of the lattices drawn these steps are the shortest.
+  const auto [one, other] = core::tubesheet::spanning_steps(sheet.addresses);
+  const auto a = core::tubesheet::move_mm(sheet, one);
+  const auto b = core::tubesheet::move_mm(sheet, other);
+  return std::min(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
 }
 
 }  // namespace tubesight::board::campaign

@@ -7,10 +7,12 @@
 
 #include "board/bench/campaign/binomial_bounds.h"
 #include "board/bench/campaign/report_groups.h"
-#include "board/bench/output/text_output.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board::campaign {
 namespace {
+
+using drivers::print;
 
 long long count(std::int64_t value) { return value; }
 

@@ -11,7 +11,7 @@ enum class Pitch : std::uint8_t { kSquare, kTriangular };
 enum class Mounting : std::uint8_t { kUpright, kTurned };
 /// How the tube-ends are welded.
 enum class WeldKind : std::uint8_t { kFlush, kFillet };
-/// What goes wrong in a move; random_fault.h tells the kinds of each.
+/// What goes wrong in a move; random_fault.cpp tells the kinds of each.
 enum class FaultGroup : std::uint8_t {
   kNone,
   kStream,     ///< fields dropped, repeated, torn, in the wrong order; a cut in time

@@ -1,7 +1,5 @@
 #include "board/bench/output/text_output.h"
 
-#include <array>
-#include <cstdarg>
 #include <cstdio>
 
 namespace tubesight::board {
@@ -20,15 +18,6 @@ bool write_out(const std::string& text) {
     return false;
   }
   return true;
-}
-
-void print(std::string& out, const char* format, ...) {
-  std::array<char, 500> text{};
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text.data(), text.size(), format, arguments);
-  va_end(arguments);
-  out += text.data();
 }
 
 }  // namespace tubesight::board

@@ -13,7 +13,4 @@ void tell(const std::vector<std::string>& messages);
 /// did not get there.
 [[nodiscard]] bool write_out(const std::string& text);
 
-/// Appends to `out` as std::printf writes, up to 499 bytes.
-[[gnu::format(printf, 2, 3)]] void print(std::string& out, const char* format, ...);
-
 }  // namespace tubesight::board

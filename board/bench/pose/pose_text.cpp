@@ -7,14 +7,16 @@
 
 #include <Eigen/Core>
 
-#include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_words.h"
 #include "core/math/rotation.h"
 #include "core/pose/tool_answer.h"
 #include "core/verification/position_correction.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board {
 namespace {
+
+using drivers::print;
 
 using core::TubeState;
 

@@ -3,11 +3,13 @@
 #include <array>
 #include <string_view>
 
-#include "board/bench/output/text_output.h"
 #include "core/base/names.h"
+#include "drivers/files/decimal.h"
 
 namespace tubesight::board {
 namespace {
+
+using drivers::print;
 
 using core::FieldTime;
 using core::Reason;

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "board/bench/simulate/event_rows.h"
-#include "board/bench/simulate/settings_text.h"
 #include "board/bench/simulate/truth_rows.h"
+#include "drivers/settings/session_text.h"
 
 namespace tubesight::board {
 namespace {
@@ -56,8 +56,7 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
   const std::array<std::string, 5> beginnings = {
       std::string(kMetaHeader) + "\n", std::string(kEventsHeader) + "\n",
       std::string(kTruthHeader) + "\n", std::string(kTrueCentersHeader) + "\n",
-      heading + session_text(scenario.told) +
-          (scenario.told.start.tubes.empty() ? "" : "\n" + start_text(scenario.told.start))};
+      heading + drivers::session_text(scenario.told)};
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     const auto opened = texts_[i].open(name + kRecordingSuffixes[i + 1]);
     TUBESIGHT_TRY(checked(opened, texts_[i].message()));

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "board/bench/simulate/scenario_keys.h"
 #include "board/bench/simulate/tubes_in_view.h"
+#include "core/base/trigonometry.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/simulated/dice.h"
+#include "drivers/simulated/tool_motion.h"
 
 namespace tubesight::board {
 
@@ -17,13 +20,13 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
   wish.place = table.place();
   wish.name = table.name();
   // The conventions let an operator be 60 % off.
-  table.optional_number("off_center", {0.0, 0.6, ""}, wish.off_center);
-  const toml::array* const list = table.list("click_on", false, kExpected);
+  table.optional_number(kOffCenterKey, {0.0, 0.6, ""}, wish.off_center);
+  const toml::array* const list = table.list(kClickOnKey, false, kExpected);
   if (list == nullptr) {
     return;
   }
   if (list->size() < 3 || list->size() > core::kMaxStartPoints) {
-    table.complain("click_on", drivers::describe(*list) + ", expected " + kExpected);
+    table.complain(kClickOnKey, drivers::describe(*list) + ", expected " + kExpected);
     return;
   }
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -32,7 +35,7 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
                                   ? drivers::why_no_tube(sheet, tube)
                                   : drivers::why_no_address((*list)[i]);
     if (!wrong.empty()) {
-      table.complain_entry("click_on", i, (*list)[i], wrong);
+      table.complain_entry(kClickOnKey, i, (*list)[i], wrong);
     }
     wish.tubes.push_back(tube);
   }
@@ -41,7 +44,7 @@ void read_click_wish(TableReader& table, const core::TubesheetSettings& sheet, C
 std::string make_clicks(const ClickWish& wish, const drivers::Scenario& scenario,
                         drivers::SimulatedWorld& world,
                         decltype(core::StartSettings::tubes)& clicks) {
-  const auto wanted = core::FieldTime(std::llround(wish.at_s * 1e9));
+  const auto wanted = drivers::instant_of(wish.at_s);
   std::int64_t slot = 0;
   while (slot < world.slots() && (world.slot_time(slot) < wanted || world.faults_at(slot).lost)) {
     ++slot;
@@ -73,7 +76,7 @@ std::string make_clicks(const ClickWish& wish, const drivers::Scenario& scenario
   clicks.clear();
   drivers::Dice dice(
       drivers::derived_seed(scenario.seed, 0xC11C0000U + static_cast<std::uint64_t>(slot)));
-  constexpr double kTurn = 6.283185307179586;
+  constexpr double kTurn = 2.0 * core::kPi;
   for (const TubeInView& tube : chosen) {
     const double direction = kTurn * dice.share();
     const auto& [u, v] = tube.image.ellipse_px;

@@ -6,8 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "board/bench/simulate/lattice_geometry.h"
-#include "core/tubesheet/tubesheet_setup.h"
+#include "core/tubesheet/sheet_places.h"
+#include "drivers/settings/session_checks.h"
+#include "drivers/simulated/tool_motion.h"
 
 namespace tubesight::board {
 namespace {
@@ -16,8 +17,6 @@ using drivers::Fault;
 using drivers::FaultKind;
 using drivers::Scenario;
 using drivers::SimulatedWorld;
-
-double seconds(core::FieldTime time) { return static_cast<double>(time.count()) * 1e-9; }
 
 double end_of(const Fault& fault) {
   return fault.for_s > 0.0 ? fault.at_s + fault.for_s : std::numeric_limits<double>::infinity();
@@ -41,7 +40,9 @@ void complain_of_idle_fault(const Fault& fault, const FaultPlaces& places,
 class JumpCheck {
  public:
   JumpCheck(const Scenario& scenario, const SimulatedWorld& world)
-      : scenario_(scenario), path_(world.path()), end_s_(seconds(world.slot_time(world.slots()))) {}
+      : scenario_(scenario),
+        path_(world.path()),
+        end_s_(drivers::seconds_of(world.slot_time(world.slots()))) {}
 
   void run(std::span<const FaultPlaces> places, drivers::SettingsProblems& problems) {
     std::vector<bool> told(scenario_.faults.size(), false);
@@ -106,9 +107,9 @@ class JumpCheck {
     }
     const core::TubesheetSettings& sheet = scenario_.told.tubesheet;
     const auto place = path_.state_at(time_s).place;
-    const auto jumped = core::tubesheet::center_mm(sheet, by);
-    return why_off_the_sheet(sheet, {place.x_mm + jumped[0] - sheet.origin_mm[0],
-                                     place.y_mm + jumped[1] - sheet.origin_mm[1]});
+    const auto jumped_mm = core::tubesheet::move_mm(sheet, by);
+    return drivers::why_off_the_sheet(sheet,
+                                      {place.x_mm + jumped_mm[0], place.y_mm + jumped_mm[1]});
   }
 
   const Scenario& scenario_;
@@ -132,10 +133,10 @@ void check_events(const Scenario& scenario, const SimulatedWorld& world,
                   std::span<const EventPlace> places, drivers::SettingsProblems& problems) {
   // As the world: times that should be equal differ in their last bits.
   constexpr double kNothing_s = 1e-9;
-  const double end_s = seconds(world.slot_time(world.slots() - 1)) + kNothing_s;
+  const double end_s = drivers::seconds_of(world.slot_time(world.slots() - 1)) + kNothing_s;
   const std::int64_t slot = world.last_delivered();
-  const double last_s = slot >= 0 ? seconds(world.slot_time(slot)) + kNothing_s : -1.0;
-  const bool cut = world.path().duration_s() > seconds(world.slot_time(world.slots()));
+  const double last_s = slot >= 0 ? drivers::seconds_of(world.slot_time(slot)) + kNothing_s : -1.0;
+  const bool cut = world.path().duration_s() > drivers::seconds_of(world.slot_time(world.slots()));
   for (std::size_t i = 0; i < scenario.events.size(); ++i) {
     const drivers::ScenarioEvent& told = scenario.events[i];
     if (told.at_s <= last_s || core::content_if<core::Start>(told.event) != nullptr ||

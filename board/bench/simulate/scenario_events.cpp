@@ -3,7 +3,10 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <variant>
 
+#include "board/bench/simulate/scenario_keys.h"
+#include "core/base/assert.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
 
@@ -12,52 +15,48 @@ namespace {
 
 using drivers::TableReader;
 
-// Those that reach the box from outside, by the words of an event file; in the enumerators' order.
-constexpr std::array<std::string_view, 6> kWords = {"claim", "start", "lamp",
-                                                    "pose",  "pick",  "acknowledge"};
-enum Kind : std::size_t { kClaim, kStart, kLamp, kPose, kPick, kAcknowledge };
-
 void read_event(TableReader& table, const core::SessionSettings& told, double length_s,
                 ScenarioEvents& to) {
   drivers::ScenarioEvent told_event;
   std::size_t kind = 0;
-  if (table.number("at_s", {0.0, 86400.0, " s"}, told_event.at_s) && length_s > 0.0 &&
-      told_event.at_s >= length_s) {
-    table.complain("at_s", "after the recording's end, expected within it");
+  drivers::read_key(table, kEventTime, told_event);
+  if (table.sound(kEventTime.key) && length_s > 0.0 && told_event.at_s >= length_s) {
+    table.complain(kEventTime.key, "after the recording's end, expected within it");
   }
-  if (!table.word("kind", kWords, kind)) {
-    for (const char* const key : {"tube", "lamp_permille", "at_px", "click_on", "off_center"}) {
+  if (!table.word(kEventKindKey, kEventWords, kind)) {
+    for (const std::string_view key :
+         {kClaimedTubeKey, kLampCommandKey.key, kPickPlaceKey.key, kClickOnKey, kOffCenterKey}) {
       table.ignore(key);
     }
     return;
   }
   core::Event& event = told_event.event;
-  switch (kind) {
-    case kClaim: {
+  switch (static_cast<ToldKind>(kind)) {
+    case ToldKind::kClaim: {
       // A robot may claim what is not there; that is what the box is asked for.
       core::Claim claim;
-      table.address("tube", claim.tube);
+      table.address(kClaimedTubeKey, claim.tube);
       event.content = claim;
       break;
     }
-    case kLamp: {
+    case ToldKind::kLamp: {
       core::LampCommand lamp;
-      table.whole("lamp_permille", {0, 1000}, lamp.permille);
+      drivers::read_key(table, kLampCommandKey, lamp);
       event.content = lamp;
       break;
     }
-    case kPick: {
+    case ToldKind::kPick: {
       core::Pick pick;
-      if (table.numbers("at_px", {0.0, 4096.0, " px"}, pick.at_px) &&
-          !drivers::in_picture(told.camera, pick.at_px)) {
-        table.complain("at_px",
+      drivers::read_key(table, kPickPlaceKey, pick);
+      if (table.sound(kPickPlaceKey.key) && !drivers::in_picture(told.camera, pick.at_px)) {
+        table.complain(kPickPlaceKey.key,
                        drivers::point_text(pick.at_px) + ", expected a place in the picture");
       }
       event.origin = core::EventOrigin::kOperator;
       event.content = pick;
       break;
     }
-    case kStart: {
+    case ToldKind::kStart: {
       ClickWish wish;
       wish.at_s = told_event.at_s;
       wish.event = static_cast<std::ptrdiff_t>(to.events->size());
@@ -67,15 +66,14 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
       event.content = core::Start{};
       break;
     }
-    case kPose: event.content = core::PoseRequest{}; break;
-    case kAcknowledge:
+    case ToldKind::kPose: event.content = core::PoseRequest{}; break;
+    case ToldKind::kAcknowledge:
       event.origin = core::EventOrigin::kOperator;
       event.content = core::Acknowledge{};
       break;
-    default: break;
   }
   to.events->push_back(told_event);
-  to.places->push_back({table.name() + ".at_s", table.place_of("at_s")});
+  to.places->push_back({table.name() + ".at_s", table.place_of(kEventTime.key)});
 }
 
 }  // namespace
@@ -85,6 +83,34 @@ void read_events(drivers::SettingsDocument& document, const core::SessionSetting
   drivers::read_each_table(document, "event", [&](TableReader& table, std::size_t) {
     read_event(table, told, length_s, to);
   });
+}
+
+void write_event(drivers::TomlWriter& toml, const drivers::ScenarioEvent& told) {
+  const auto begin = [&](ToldKind kind) {
+    toml.entry("event");
+    drivers::write_key(toml, kEventTime, told);
+    toml.text(kEventKindKey, kEventWords[static_cast<std::size_t>(kind)]);
+  };
+  const auto never = [](const auto& /*content*/) { TUBESIGHT_ASSERT(false); };
+  std::visit(core::Overloaded{
+                 [&](const core::Claim& claim) {
+                   begin(ToldKind::kClaim);
+                   toml.wholes(kClaimedTubeKey, std::array{claim.tube.row, claim.tube.column});
+                 },
+                 [&](const core::LampCommand& lamp) {
+                   begin(ToldKind::kLamp);
+                   drivers::write_key(toml, kLampCommandKey, lamp);
+                 },
+                 [&](const core::Pick& pick) {
+                   begin(ToldKind::kPick);
+                   drivers::write_key(toml, kPickPlaceKey, pick);
+                 },
+                 [&](const core::PoseRequest& /*request*/) { begin(ToldKind::kPose); },
+                 [&](const core::Acknowledge& /*seen*/) { begin(ToldKind::kAcknowledge); },
+                 [&](const core::Start& start) { never(start); },
+                 [&](const core::PoseResult& result) { never(result); },
+             },
+             told.event.content);
 }
 
 }  // namespace tubesight::board

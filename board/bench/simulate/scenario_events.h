@@ -6,6 +6,7 @@
 #include "board/bench/simulate/scenario_effects.h"
 #include "core/base/settings.h"
 #include "drivers/settings/settings_document.h"
+#include "drivers/settings/toml_writer.h"
 #include "drivers/simulated/scenario.h"
 
 namespace tubesight::board {
@@ -20,5 +21,9 @@ struct ScenarioEvents {
 /// Reads each `[[event]]` and appends it. `length_s` is the recording's.
 void read_events(drivers::SettingsDocument& document, const core::SessionSettings& told,
                  double length_s, ScenarioEvents to);
+
+/// Writes an event as an `[[event]]`, which reads back as it was. Not starts: the clicks of an
+/// `[[event]]` are made of the truth when it is read.
+void write_event(drivers::TomlWriter& toml, const drivers::ScenarioEvent& told);
 
 }  // namespace tubesight::board

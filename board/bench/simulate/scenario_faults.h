@@ -5,6 +5,7 @@
 #include "board/bench/simulate/scenario_effects.h"
 #include "core/base/settings.h"
 #include "drivers/settings/settings_document.h"
+#include "drivers/settings/toml_writer.h"
 #include "drivers/simulated/fault.h"
 
 namespace tubesight::board {
@@ -20,5 +21,8 @@ struct FaultContext {
 /// whether all was well.
 bool read_faults(drivers::SettingsDocument& document, const FaultContext& context,
                  std::vector<drivers::Fault>& faults, std::vector<FaultPlaces>& places);
+
+/// Writes a fault as a `[[fault]]`, which reads back as it was.
+void write_fault(drivers::TomlWriter& toml, const drivers::Fault& fault);
 
 }  // namespace tubesight::board

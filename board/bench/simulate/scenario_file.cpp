@@ -13,22 +13,23 @@
 #include "board/bench/simulate/scenario_effects.h"
 #include "board/bench/simulate/scenario_events.h"
 #include "board/bench/simulate/scenario_faults.h"
+#include "board/bench/simulate/scenario_keys.h"
 #include "board/bench/simulate/scenario_path.h"
 #include "board/bench/simulate/scenario_robot.h"
 #include "board/bench/simulate/scenario_scene.h"
-#include "core/base/names.h"
 #include "core/base/scalar.h"
+#include "core/rendering/renderer_limits.h"
 #include "core/session/session.h"
-#include "drivers/settings/disk_files.h"
 #include "drivers/settings/read_table.h"
+#include "drivers/settings/session_keys.h"
 #include "drivers/settings/session_tables.h"
+#include "drivers/settings/text_files.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {
 namespace {
 
 using core::Result;
-using drivers::NumberRange;
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
@@ -43,12 +44,7 @@ constexpr std::array<std::string_view, 20> kTables = {
 constexpr std::string_view kExpect = "expect";
 
 constexpr NumberRange kRate{1.0, 1000.0, " frames a second"};
-constexpr NumberRange kExposure{0.0, 1.0, " s"};
-constexpr double kLongest_s = 86400.0;
-constexpr NumberRange kLength{0.0, kLongest_s, " s"};
-constexpr NumberRange kShare{0.0, 1.0, ""};
 constexpr drivers::WholeRange kSeed{0, std::numeric_limits<std::int32_t>::max()};
-constexpr drivers::WholeRange kMargin{0, 4096};
 /// Round the window when it alone is drawn: rims that begin in it are measured whole.
 constexpr std::int32_t kUsualMargin_px = 24;
 
@@ -108,9 +104,9 @@ void ScenarioReading::read_names() {
   std::int32_t sheet_seed = 1;
   file_->title.clear();
   drivers::read_table(*document_, "scenario", false, [&](TableReader& table) {
-    table.optional_text("title", file_->title);
-    table.optional_whole("seed", kSeed, seed);
-    table.optional_whole("sheet_seed", kSeed, sheet_seed);
+    table.optional_text(kTitleKey, file_->title);
+    table.optional_whole(kSeedKey, kSeed, seed);
+    table.optional_whole(kSheetSeedKey, kSeed, sheet_seed);
   });
   to_->seed = static_cast<std::uint64_t>(overrides_->seed >= 0 ? overrides_->seed : seed);
   sheet_seed_ = static_cast<std::uint64_t>(sheet_seed);
@@ -150,9 +146,9 @@ void ScenarioReading::read_start(TableReader& table) {
   const drivers::StartContext context{camera_ ? &told.camera : nullptr,
                                       sheet_ ? &told.tubesheet : nullptr};
   drivers::read_start_window(table, context, told.start);
-  if (table.has("tubes")) {
+  if (table.has(drivers::kClicksKey)) {
     drivers::read_clicks(table, context, told.start);
-    for (const char* const key : {"click_on", "off_center"}) {
+    for (const std::string_view key : {kClickOnKey, kOffCenterKey}) {
       if (table.has(key)) {
         table.complain(key, "tubes are given as well, expected one of them");
       }
@@ -160,13 +156,13 @@ void ScenarioReading::read_start(TableReader& table) {
     }
     return;
   }
-  table.ignore("tubes");
+  table.ignore(drivers::kClicksKey);
   ClickWish wish;
   if (sheet_) {
     read_click_wish(table, told.tubesheet, wish);
   } else {
-    table.ignore("click_on");
-    table.ignore("off_center");
+    table.ignore(kClickOnKey);
+    table.ignore(kOffCenterKey);
   }
   wishes_.push_back(wish);
 }
@@ -178,9 +174,7 @@ void ScenarioReading::read_video() {
   drivers::read_table(*document_, "video", false, [&](TableReader& table) {
     const std::size_t before = table.problems().size();
     read_rate(table);
-    table.optional_number("exposure_s", kExposure, video.exposure_s);
-    table.optional_number("length_s", kLength, video.length_s);
-    table.optional_whole("window_margin_px", kMargin, video.window_margin_px);
+    drivers::read_keys(table, kVideoKeys, video);
     const double field_s = static_cast<double>(video.rate_denominator) /
                            static_cast<double>(video.rate_numerator) /
                            (to_->told.camera.scan == core::Scan::kProgressive ? 1.0 : 2.0);
@@ -199,7 +193,7 @@ void ScenarioReading::read_video() {
 
 void ScenarioReading::read_rate(TableReader& table) {
   double rate_hz = 30.0;
-  if (!table.optional_number("rate_hz", kRate, rate_hz)) {
+  if (!table.optional_number(kRateKey, kRate, rate_hz)) {
     return;
   }
   // To a millionth: 29.97 is 2997/100.
@@ -242,33 +236,7 @@ void ScenarioReading::read_expectation() {
   Expectation& expect = file_->expect;
   expect = {};
   drivers::read_table(*document_, kExpect, false, [&](TableReader& table) {
-    constexpr std::array<core::TrackState, 4> kStates = {
-        core::TrackState::kWaiting, core::TrackState::kTracking, core::TrackState::kDegraded,
-        core::TrackState::kLost};
-    std::array<std::string_view, kStates.size()> states{};
-    std::transform(kStates.begin(), kStates.end(), states.begin(),
-                   [](core::TrackState state) { return core::name_of(state); });
-    constexpr std::size_t kReasons = static_cast<std::size_t>(core::count_of<core::Reason>());
-    std::array<std::string_view, kReasons> reasons{};
-    for (std::size_t i = 0; i < kReasons; ++i) {
-      reasons[i] = core::name_of(static_cast<core::Reason>(i));
-    }
-    std::size_t end = 1;
-    std::size_t lost = 0;
-    std::size_t degraded = 0;
-    table.optional_number("answered", kShare, expect.answered);
-    table.optional_number("missed", kShare, expect.missed);
-    table.optional_word("end", states, end);
-    table.optional_word("lost", reasons, lost);
-    table.optional_word("degraded", reasons, degraded);
-    table.optional_whole("false_aligned", {0, 10000}, expect.false_aligned);
-    table.optional_whole("contradicted", {0, 10000}, expect.contradicted);
-    table.optional_whole("confirmed", {0, 10000}, expect.confirmed);
-    table.optional_whole("tubes", {0, 10000}, expect.tubes);
-    table.optional_switch("undetectable", expect.undetectable);
-    expect.end = kStates[end];
-    expect.lost = static_cast<core::Reason>(lost);
-    expect.degraded = static_cast<core::Reason>(degraded);
+    drivers::read_keys(table, kExpectationKeys, expect);
   });
 }
 
@@ -282,7 +250,9 @@ void ScenarioReading::play() {
   if (!world->configure(*to_)) {
     complain({},
              "scenario: camera, sheet and looks cannot be drawn together, expected a picture of "
-             "at most 1024 pixels a side and tube-ends before the camera");
+             "at most " +
+                 std::to_string(core::rendering::kMaxPictureSide) +
+                 " pixels a side and tube-ends before the camera");
     return;
   }
   if (!std::make_unique<core::session::Session<core::FixedPoint>>()->configure(to_->told)) {

@@ -6,7 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "board/bench/simulate/lattice_geometry.h"
+#include "board/bench/simulate/scenario_keys.h"
+#include "core/tubesheet/sheet_places.h"
 #include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
@@ -20,33 +21,17 @@ using core::TubeAddress;
 using core::kinematics::PathSegment;
 using core::kinematics::SegmentKind;
 using core::kinematics::ToolPlace;
-using drivers::NumberRange;
 using drivers::TableReader;
 
-constexpr NumberRange kPlace{-drivers::kLargestSheet_mm, drivers::kLargestSheet_mm, " mm"};
 constexpr NumberRange kOffset{-100.0, 100.0, " mm"};
-constexpr NumberRange kHeight{0.0, 300.0, " mm"};
-constexpr NumberRange kHeading{-360.0, 360.0, " degrees"};
-constexpr NumberRange kLean{-10.0, 10.0, " degrees"};
-constexpr NumberRange kRest{0.0, 86400.0, " s"};
-constexpr NumberRange kSpeed{0.1, 5000.0, " mm/s"};
-constexpr NumberRange kAcceleration{1.0, 1000000.0, " mm/s2"};
-constexpr NumberRange kJerk{1.0, 1e9, " mm/s3"};
-constexpr NumberRange kTurnSpeed{0.01, 3600.0, " deg/s"};
-constexpr NumberRange kTurnAcceleration{0.01, 1e6, " deg/s2"};
-constexpr NumberRange kTurnJerk{0.01, 1e9, " deg/s3"};
 constexpr NumberRange kScatter{0.0, 10.0, " mm"};
-constexpr std::array<std::string_view, 2> kShapes = {"trapezoid", "s-curve"};
 
 /// What a step may do: the key that says so.
 constexpr std::array<std::string_view, 8> kActions = {
     "rest_s", "to", "to_mm", "height_mm", "dock_mm", "heading_deg", "lean_deg", "tour"};
-/// How a step does it.
-constexpr std::array<std::string_view, 12> kManners = {
-    "claim",       "claim_tube",          "pause_s",
-    "at_most",     "offset_mm",           "profile",
-    "speed_mm_s",  "acceleration_mm_s2",  "jerk_mm_s3",
-    "speed_deg_s", "acceleration_deg_s2", "jerk_deg_s3"};
+/// How a step does it, beside kProfileKey, kMoveKeys and kTurnKeys.
+constexpr std::array<std::string_view, 5> kManners = {"claim", "claim_tube", "pause_s", "at_most",
+                                                      "offset_mm"};
 constexpr const char* kOneAction =
     "one of rest_s, to, to_mm, height_mm, dock_mm, heading_deg, lean_deg, tour";
 
@@ -78,27 +63,26 @@ void PathReader::read_start(TableReader& table) {
   ToolPlace& from = scenario_->from;
   std::array<double, 2> place{};
   bool placed = false;
-  const char* key = "tube";
-  if (table.has("at_mm")) {
-    key = "at_mm";
-    placed = table.numbers("at_mm", kPlace, place);
+  std::string_view key = "tube";
+  if (table.has(kPlaceKey)) {
+    key = kPlaceKey;
+    placed = table.numbers(kPlaceKey, kPathPlace, place);
+    table.ignore("tube");
     if (table.has("tube")) {
       table.complain("tube", "at_mm is given as well, expected one of them");
-      table.ignore("tube");
     }
   } else {
     TubeAddress tube;
     placed = read_tube(table, "tube", tube);
     place = placed ? core::tubesheet::center_mm(*sheet_, tube) : place;
-    table.ignore("at_mm");
+    table.ignore(kPlaceKey);
   }
   std::array<double, 2> offset{};
   std::array<double, 2> lean{};
   from = {0.0, 0.0, 60.0, 0.0, 0.0, 0.0};
   table.optional_numbers("offset_mm", kOffset, offset);
-  table.optional_number("height_mm", kHeight, from.height_mm);
-  table.optional_number("heading_deg", kHeading, from.alpha_deg);
-  table.optional_numbers("lean_deg", kLean, lean);
+  drivers::read_keys(table, kFromKeys, from);
+  table.optional_numbers(kLeanKey, kLean, lean);
   table.optional_number("scatter_mm", kScatter, scatter_mm_);
   read_manner(table, manner_, false);
   read_manner(table, manner_, true);
@@ -106,7 +90,8 @@ void PathReader::read_start(TableReader& table) {
   from.y_mm = place[1] + offset[1];
   from.beta_deg = lean[0];
   from.gamma_deg = lean[1];
-  if (const std::string wrong = placed ? why_off_the_sheet(*sheet_, {from.x_mm, from.y_mm}) : "";
+  if (const std::string wrong =
+          placed ? drivers::why_off_the_sheet(*sheet_, {from.x_mm, from.y_mm}) : "";
       !wrong.empty()) {
     table.complain(key, wrong);
   }
@@ -115,16 +100,12 @@ void PathReader::read_start(TableReader& table) {
 
 void PathReader::read_manner(TableReader& table, Manner& manner, bool turn) {
   std::size_t shape = static_cast<std::size_t>(manner.shape);
-  table.optional_word("profile", kShapes, shape);
+  table.optional_word(kProfileKey, kProfileWords, shape);
   manner.shape = static_cast<core::kinematics::SpeedShape>(shape);
   if (turn) {
-    table.optional_number("speed_deg_s", kTurnSpeed, manner.turn.speed);
-    table.optional_number("acceleration_deg_s2", kTurnAcceleration, manner.turn.acceleration);
-    table.optional_number("jerk_deg_s3", kTurnJerk, manner.turn.jerk);
+    drivers::read_keys(table, kTurnKeys, manner.turn);
   } else {
-    table.optional_number("speed_mm_s", kSpeed, manner.move.speed);
-    table.optional_number("acceleration_mm_s2", kAcceleration, manner.move.acceleration);
-    table.optional_number("jerk_mm_s3", kJerk, manner.move.jerk);
+    drivers::read_keys(table, kMoveKeys, manner.move);
   }
 }
 
@@ -147,6 +128,9 @@ void PathReader::read_step(TableReader& table) {
     for (const std::string_view key : kManners) {
       table.ignore(key);  // whose they are cannot be told
     }
+    table.ignore(kProfileKey);
+    drivers::ignore_keys(table, kMoveKeys);
+    drivers::ignore_keys(table, kTurnKeys);
     return;
   }
   if (action == "rest_s") {
@@ -166,16 +150,16 @@ void PathReader::read_step(TableReader& table) {
   const std::size_t before = table.problems().size();
   if (action == "height_mm") {
     segment.kind = SegmentKind::kHeight;
-    table.number("height_mm", kHeight, segment.height_mm);
+    drivers::read_key(table, kStepHeight, segment);
   } else if (action == "dock_mm") {
     segment.kind = SegmentKind::kDock;
-    table.number("dock_mm", kHeight, segment.height_mm);
+    drivers::read_key(table, kStepDock, segment);
   } else if (action == "heading_deg") {
     segment.kind = SegmentKind::kTurn;
-    table.number("heading_deg", kHeading, segment.alpha_deg);
+    drivers::read_key(table, kStepHeading, segment);
   } else if (action == "lean_deg") {
     segment.kind = SegmentKind::kLean;
-    table.numbers("lean_deg", kLean, segment.lean_deg);
+    drivers::read_key(table, kStepLean, segment);
   } else {
     read_move(table, segment);
   }
@@ -190,7 +174,7 @@ void PathReader::read_rest(TableReader& table) {
   bool claims = false;
   table.optional_switch("claim", claims);
   const ToolPlace& place = path_->end();
-  TubeAddress tube = nearest_address(*sheet_, {place.x_mm, place.y_mm});
+  TubeAddress tube = core::tubesheet::nearest_address(*sheet_, {place.x_mm, place.y_mm});
   if (table.has("claim_tube")) {
     claims = read_tube(table, "claim_tube", tube);
   } else {
@@ -201,7 +185,8 @@ void PathReader::read_rest(TableReader& table) {
     }
   }
   const double from_s = path_->duration_s();
-  if (table.number("rest_s", kRest, rest.rest_s) && append(table, "rest_s", rest) && claims) {
+  drivers::read_key(table, kStepRest, rest);
+  if (table.sound(kStepRest.key) && append(table, kStepRest.key, rest) && claims) {
     claim(table, table.has("claim_tube") ? "claim_tube" : "claim", tube,
           from_s + rest.rest_s / 2.0);
   }
@@ -210,8 +195,8 @@ void PathReader::read_rest(TableReader& table) {
 void PathReader::read_move(TableReader& table, PathSegment& segment) {
   segment.kind = SegmentKind::kMove;
   const std::size_t before = table.problems().size();
-  if (table.has("to_mm")) {
-    table.numbers("to_mm", kPlace, segment.to_mm);
+  if (table.has(kStepTo.key)) {
+    drivers::read_key(table, kStepTo, segment);
     return;
   }
   TubeAddress tube;
@@ -248,7 +233,7 @@ void PathReader::read_tour(TableReader& table) {
     return;
   }
   for (const TubeAddress corner : {a, b}) {
-    if (!drivers::in_ranges(*sheet_, corner)) {
+    if (!core::tubesheet::in_ranges(*sheet_, corner)) {
       table.complain("tour",
                      drivers::address_text(corner) + ", expected " + drivers::ranges_text(*sheet_));
       return;
@@ -305,7 +290,8 @@ bool PathReader::read_tube(TableReader& table, std::string_view key, TubeAddress
 
 bool PathReader::append(TableReader& table, std::string_view key, const PathSegment& segment) {
   if (segment.kind == SegmentKind::kMove) {
-    if (const std::string wrong = why_off_the_sheet(*sheet_, segment.to_mm); !wrong.empty()) {
+    if (const std::string wrong = drivers::why_off_the_sheet(*sheet_, segment.to_mm);
+        !wrong.empty()) {
       table.complain(key, wrong);
       return false;
     }

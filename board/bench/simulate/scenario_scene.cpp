@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "board/bench/simulate/scenario_keys.h"
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
+#include "drivers/settings/session_keys.h"
 #include "drivers/settings/table_reader.h"
 
 namespace tubesight::board {
@@ -16,50 +18,24 @@ namespace {
 using core::TubeAddress;
 using core::rendering::PlugKind;
 using core::rendering::Scene;
-using drivers::NumberRange;
 using drivers::TableReader;
-
-constexpr NumberRange kPositionError{-20.0, 20.0, " mm"};
-constexpr NumberRange kAngleError{-5.0, 5.0, " degrees"};
-constexpr NumberRange kFocalError{-1.0, 1.0, " mm"};
-constexpr NumberRange kCenterError{-50.0, 50.0, " px"};
-constexpr NumberRange kScaleError{-0.1, 0.1, ""};
-constexpr NumberRange kDistortionError{-0.05, 0.05, " per mm2"};
-constexpr NumberRange kPitchError{-0.02, 0.02, ""};
-constexpr NumberRange kBoreError{-2.0, 2.0, " mm"};
-constexpr NumberRange kDisplacement{-10.0, 10.0, " mm"};
 
 /// True minus told.
 void read_calibration_error(TableReader& table, Scene& scene) {
-  std::array<double, 3> position{};
-  std::array<double, 3> rotation{};
-  std::array<double, 2> center{};
-  double focal = 0.0;
-  double scale = 0.0;
-  double distortion = 0.0;
-  double pitch = 0.0;
-  double bore = 0.0;
-  table.optional_numbers("tool_position_mm", kPositionError, position);
-  table.optional_numbers("tool_rotation_deg", kAngleError, rotation);
-  table.optional_number("focal_length_mm", kFocalError, focal);
-  table.optional_numbers("center_px", kCenterError, center);
-  table.optional_number("horizontal_scale", kScaleError, scale);
-  table.optional_number("distortion_per_mm2", kDistortionError, distortion);
-  table.optional_number("pitch_share", kPitchError, pitch);
-  table.optional_number("bore_mm", kBoreError, bore);
+  CalibrationError error;
+  drivers::read_keys(table, kCalibrationErrorKeys, error);
   for (std::size_t i = 0; i < 3; ++i) {
-    scene.tool.position_mm[i] += position[i];
-    scene.tool.rotation_deg[i] += rotation[i];
+    scene.tool.position_mm[i] += error.tool_position_mm[i];
+    scene.tool.rotation_deg[i] += error.tool_rotation_deg[i];
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    scene.camera.center_px[i] += center[i];
-    scene.sheet.row_step_mm[i] *= 1.0 + pitch;
-    scene.sheet.column_step_mm[i] *= 1.0 + pitch;
+    scene.camera.center_px[i] += error.center_px[i];
   }
-  scene.camera.focal_length_mm += focal;
-  scene.camera.horizontal_scale += scale;
-  scene.camera.distortion_per_mm2 += distortion;
-  scene.sheet.bore_mm += bore;
+  core::tubesheet::stretch(scene.sheet, 1.0 + error.pitch_share);
+  scene.camera.focal_length_mm += error.focal_length_mm;
+  scene.camera.horizontal_scale += error.horizontal_scale;
+  scene.camera.distortion_per_mm2 += error.distortion_per_mm2;
+  scene.sheet.bore_mm += error.bore_mm;
   std::string wrong;
   if (scene.camera.focal_length_mm < 0.1 || scene.sheet.bore_mm < 1.0) {
     table.complain(scene.sheet.bore_mm < 1.0 ? "bore_mm" : "focal_length_mm",
@@ -93,12 +69,12 @@ void read_tubes(TableReader& table, std::string_view key, const core::TubesheetS
 
 void read_displaced(TableReader& table, const core::TubesheetSettings& told, Scene& scene) {
   const toml::array* const list =
-      table.list("displaced", false, "[{ row = R, column = C, by_mm = [X, Y, Z] }, ...]");
+      table.list(kDisplacedKey, false, "[{ row = R, column = C, by_mm = [X, Y, Z] }, ...]");
   for (std::size_t i = 0; list != nullptr && i < list->size(); ++i) {
     const toml::table* const entry = (*list)[i].as_table();
     if (entry == nullptr) {
       table.complain_entry(
-          "displaced", i, (*list)[i],
+          kDisplacedKey, i, (*list)[i],
           drivers::describe((*list)[i]) + ", expected { row = R, column = C, by_mm = [X, Y, Z] }");
       continue;
     }
@@ -106,9 +82,8 @@ void read_displaced(TableReader& table, const core::TubesheetSettings& told, Sce
     TableReader reader(*entry, table.place_of((*list)[i]),
                        table.name() + ".displaced[" + std::to_string(i) + "]", table.problems());
     core::rendering::DisplacedTube tube;
-    reader.whole("row", {-9999, 9999}, tube.address.row);
-    reader.whole("column", {-9999, 9999}, tube.address.column);
-    reader.numbers("by_mm", kDisplacement, tube.by_mm);
+    drivers::read_keys(reader, drivers::kAddressKeys, tube.address);
+    drivers::read_keys(reader, kDisplacementKeys, tube);
     reader.finish();
     if (table.problems().size() != before) {
       continue;
@@ -118,7 +93,7 @@ void read_displaced(TableReader& table, const core::TubesheetSettings& told, Sce
       wrong = "too many, expected at most " + std::to_string(scene.displaced.capacity());
     }
     if (!wrong.empty()) {
-      table.complain_entry("displaced", i, (*list)[i], wrong);
+      table.complain_entry(kDisplacedKey, i, (*list)[i], wrong);
     }
   }
 }
@@ -137,9 +112,10 @@ void read_sheet(TableReader& table, const core::TubesheetSettings& told, Scene& 
                  : "too many plugs, expected at most " + std::to_string(scene.plugs.capacity());
     };
   };
-  read_tubes(table, "rolled", told, plug_of(PlugKind::kRolled));
-  read_tubes(table, "flush", told, plug_of(PlugKind::kFlush));
-  read_tubes(table, "voids", told, [&](TubeAddress address) -> std::string {
+  for (const PlugsKey& plugs : kPlugsKeys) {
+    read_tubes(table, plugs.key, told, plug_of(plugs.kind));
+  }
+  read_tubes(table, kVoidsKey, told, [&](TubeAddress address) -> std::string {
     for (const TubeAddress plugged : told.plugged) {
       if (plugged == address) {
         return drivers::address_text(address) + " is plugged as well, expected one of them";
@@ -154,7 +130,7 @@ void read_sheet(TableReader& table, const core::TubesheetSettings& told, Scene& 
 }
 
 void read_look(TableReader& table, core::rendering::SheetLook& look) {
-  read_numbers(table, kSheetLookKeys, look);
+  drivers::read_keys(table, kSheetLookKeys, look);
   if (look.land_mm <= look.fillet_mm) {
     return;
   }
@@ -187,10 +163,10 @@ void read_scene(drivers::SettingsDocument& document, const core::SessionSettings
   drivers::read_table(document, "look", false,
                       [&](TableReader& table) { read_look(table, scene.look); });
   drivers::read_table(document, "sensor", false, [&](TableReader& table) {
-    read_numbers(table, kSensorLookKeys, scene.sensor);
+    drivers::read_keys(table, kSensorLookKeys, scene.sensor);
   });
   drivers::read_table(document, "guidetube", false, [&](TableReader& table) {
-    read_numbers(table, kGuidetubeLookKeys, scene.guidetube);
+    drivers::read_keys(table, kGuidetubeLookKeys, scene.guidetube);
   });
 }
 
@@ -199,11 +175,8 @@ void read_lamp(drivers::SettingsDocument& document, drivers::SimulatedLight& lig
   light = {};
   look = {};
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    table.optional_whole("lamp_permille", {0, 1000}, light.lamp_permille);
-    table.optional_number("pwm_hz", {0.0, 100000.0, " Hz"}, light.pwm_hz);
-    table.optional_number("lag_s", {0.0, 60.0, " s"}, light.lag_s);
-    table.optional_number("ring", {0.0, 1.0, ""}, light.ring);
-    read_numbers(table, kLampLookKeys, look);
+    drivers::read_keys(table, kLightKeys, light);
+    drivers::read_keys(table, kLampLookKeys, look);
   });
 }
 

@@ -12,10 +12,10 @@
 #include "board/bench/output/text_output.h"
 #include "board/bench/simulate/recording_files.h"
 #include "board/bench/simulate/scenario_file.h"
-#include "board/bench/simulate/settings_text.h"
 #include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
 #include "drivers/settings/session_checks.h"
+#include "drivers/settings/toml_writer.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {
@@ -53,7 +53,8 @@ std::string summary(const SimulateOptions& options, const ScenarioFile& file,
 std::string heading(const SimulateOptions& options, const ScenarioFile& file) {
   const std::string from = std::filesystem::path(options.scenario).filename().string() + ", seed " +
                            std::to_string(file.scenario.seed);
-  return (file.title.empty() ? "" : toml_comment(file.title)) + toml_comment(from) + "\n";
+  return (file.title.empty() ? "" : drivers::toml_comment(file.title)) +
+         drivers::toml_comment(from) + "\n";
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "board/bench/simulate/lattice_geometry.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board {
 namespace {
@@ -46,24 +46,14 @@ void list_tubes_in_view(const core::rendering::Truth& truth, const core::renderi
                         std::vector<TubeInView>& tubes) {
   tubes.clear();
   const core::CameraSettings& camera = scene.camera;
-  const core::TubesheetSettings& sheet = scene.sheet;
   // Farther away than this from the tool a tube-end is too small to matter, even for a camera that
   // looks along the sheet.
   constexpr double kFarthest_mm = 600.0;
   const auto& tip = field.T_sheet_tool.translation_mm();
-  const auto& r = sheet.row_step_mm;
-  const auto& c = sheet.column_step_mm;
-  const double area = std::abs(r[0] * c[1] - r[1] * c[0]);
-  const auto rows = static_cast<std::int32_t>(kFarthest_mm * std::hypot(c[0], c[1]) / area);
-  const auto columns = static_cast<std::int32_t>(kFarthest_mm * std::hypot(r[0], r[1]) / area +
-                                                 std::abs(sheet.odd_row_shift));
-  const core::TubeAddress middle = nearest_address(sheet, {tip.x(), tip.y()});
-  const std::int32_t first_row = std::max(sheet.rows[0], middle.row - rows);
-  const std::int32_t last_row = std::min(sheet.rows[1], middle.row + rows);
-  const std::int32_t first_column = std::max(sheet.columns[0], middle.column - columns);
-  const std::int32_t last_column = std::min(sheet.columns[1], middle.column + columns);
-  for (std::int32_t row = first_row; row <= last_row; ++row) {
-    for (std::int32_t column = first_column; column <= last_column; ++column) {
+  const auto block =
+      core::tubesheet::addresses_within(scene.sheet, kFarthest_mm, {tip.x(), tip.y()});
+  for (std::int32_t row = block.rows[0]; row <= block.rows[1]; ++row) {
+    for (std::int32_t column = block.columns[0]; column <= block.columns[1]; ++column) {
       const auto end = truth.tube_ends().at({row, column});
       if (!near_picture(truth.image_of(field.T_sheet_tool, end.center_mm, faults.knock), camera)) {
         continue;

@@ -77,7 +77,7 @@ TEST_F(Noise, OfNeighboursAndOfLinesIsIndependent) {
 
 TEST_F(Noise, OfLightGrowsWithItsRoot) {
   sheet_.scene().sensor.shot_noise = 0.5;
-  sheet_.scene().lamp.ring_radius_mm = 0.0;
+  sheet_.scene().lamp.ring_radius_mm = 1.0;
   sheet_.scene().guidetube.radius_mm = 0.0;
   ASSERT_TRUE(sheet_.configure());
   Exposure exposure = sheet_.exposure();

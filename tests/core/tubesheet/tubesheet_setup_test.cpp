@@ -57,19 +57,5 @@ TEST(ShortestStep, IsTheDistanceOfTheNearestTwoTubes) {
   EXPECT_NEAR(shortest_step_mm(*sheet), 21.998, 0.001);
 }
 
-TEST(IsSymmetry, NeedsAnEvenSumOrAnEvenNumberOfRows) {
-  const auto sheet = std::make_unique<TubesheetSettings>();
-  EXPECT_TRUE(is_symmetry(*sheet, {1, 2}));
-  sheet->odd_row_shift = 0.25;
-  EXPECT_TRUE(is_symmetry(*sheet, {-2, 3}));
-  EXPECT_FALSE(is_symmetry(*sheet, {-1, 3}));
-  sheet->addresses = AddressParity::kOddSum;
-  EXPECT_TRUE(is_symmetry(*sheet, {-2, 4}));
-  EXPECT_FALSE(is_symmetry(*sheet, {-2, 3}));
-  EXPECT_FALSE(is_symmetry(*sheet, {-1, 3}));
-  sheet->odd_row_shift = 0.0;
-  EXPECT_TRUE(is_symmetry(*sheet, {-1, 3}));
-}
-
 }  // namespace
 }  // namespace tubesight::core::tubesheet

@@ -1,6 +1,7 @@
 #include "drivers/files/decimal.h"
 
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,19 @@ TEST(AppendDecimal, PrintsThirtiethsOfASecond) {
   EXPECT_EQ(decimal(3083333333, 1000000000, 6), "3.083333");
 }
 
+TEST(RoundedText, HasSoManySignificantDigits) {
+  EXPECT_EQ(rounded_text(1234.56), "1235");
+  EXPECT_EQ(rounded_text(0.0123456), "0.01235");
+  EXPECT_EQ(rounded_text(-25.40049, 5), "-25.4");
+  EXPECT_EQ(rounded_text(123456.0, 5), "1.2346e+05");
+}
+
+TEST(Print, AppendsAsPrintfWrites) {
+  std::string text = "a";
+  print(text, " %d %.2f %s", 7, 0.125, "b");
+  EXPECT_EQ(text, "a 7 0.12 b");
+}
+
 TEST(ParseDecimal, ReadsExactly) {
   std::int64_t value = 0;
 
@@ -69,6 +83,14 @@ TEST(ParseDecimal, RefusesEverythingElse) {
     EXPECT_FALSE(parse_decimal(text, 2, value)) << text;
   }
   EXPECT_EQ(value, 42);
+}
+
+TEST(Print, CutsOffWhatIsLongerThanItsBuffer) {
+  std::string out;
+
+  print(out, "%s", std::string(600, 'x').c_str());
+
+  EXPECT_EQ(out, std::string(499, 'x'));
 }
 
 }  // namespace

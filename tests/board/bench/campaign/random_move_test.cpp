@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "board/bench/campaign/random_plant.h"
-#include "board/bench/campaign/scenario_text.h"
+#include "board/bench/campaign/random_parts.h"
+#include "board/bench/simulate/scenario_text.h"
 
 namespace tubesight::board::campaign {
 namespace {

@@ -1,4 +1,4 @@
-#include "board/bench/campaign/scenario_text.h"
+#include "board/bench/simulate/scenario_text.h"
 
 #include <memory>
 #include <string>

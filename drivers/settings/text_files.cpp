@@ -1,4 +1,4 @@
-#include "drivers/settings/disk_files.h"
+#include "drivers/settings/text_files.h"
 
 #include <cstddef>
 

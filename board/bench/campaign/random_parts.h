@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include "board/bench/campaign/random_source.h"
+#include "board/bench/campaign/stratum.h"
+#include "core/rendering/truth.h"
+#include "core/rendering/tube_ends.h"
+#include "drivers/simulated/scenario.h"
+
+namespace tubesight::board::campaign {
+
+// What a random move is drawn of, in the order in which it is drawn: a source file each.
+
+/// Addresses of a random sheet run from 0 to this in rows and columns: the tool starts well inside,
+/// and the sheet's edges come into view now and then.
+inline constexpr std::int32_t kLastAddress = 40;
+
+/// Draws the plant of a move: pitch 20.6 to 32.6 mm, bores of 60 to 74 % of it, numbering of any
+/// kind and hand, stays and lanes without tubes, plugs listed and not, deposits, the plate's looks.
+///
+/// Writes the scene's sheet and look, and what the box is told of it.
+void draw_plant(const Stratum& stratum, RandomSource& random, drivers::Scenario& scenario);
+
+/// Distance of neighbouring tubes, mm.
+[[nodiscard]] double pitch_mm(const core::TubesheetSettings& sheet);
+
+/// Draws the camera, how it sits on the tool, its calibrations (a little off, as calibrations are),
+/// the search window, the lamp and the sensor. Needs the plant: a coarser pitch is looked at from
+/// farther away.
+void draw_camera(const Stratum& stratum, RandomSource& random, drivers::Scenario& scenario);
+
+/// Draws ordinary light and an ordinary sensor.
+void draw_light(RandomSource& random, drivers::Scenario& scenario);
+
+/// Draws the limits of [motion] and a path within them: rest, moves by a few tubes at the band's
+/// speed, changes of height, heading and lean, docking, rest; 70 to 80 fields, give or take.
+///
+/// The tool ends a move up to a millimetre beside the tube, as a robot does. `ends` is the scene's.
+void draw_path(const Stratum& stratum, RandomSource& random, const core::rendering::TubeEnds& ends,
+               drivers::Scenario& scenario);
+
+/// Draws the faults of a move, one or now and then two of its group, at any time of the path; the
+/// first few fields are spared, so that the start is sound. Needs plant and path.
+void draw_faults(const Stratum& stratum, RandomSource& random, drivers::Scenario& scenario);
+
+/// Draws an operator's three clicks into the first field: open tube-ends wholly in view near the
+/// optimum point, not in one line, each up to 60 % of the tube-end's radius off its middle.
+///
+/// False when the view does not show three such tube-ends.
+[[nodiscard]] bool draw_clicks(RandomSource& random, const core::rendering::Truth& truth,
+                               drivers::Scenario& scenario);
+
+}  // namespace tubesight::board::campaign

@@ -1,0 +1,54 @@
+#include "drivers/settings/session_text.h"
+
+#include <vector>
+
+#include "drivers/settings/session_keys.h"
+
+namespace tubesight::drivers {
+
+void write_plant(TomlWriter& toml, const core::SessionSettings& settings) {
+  toml.table("camera");
+  write_keys(toml, kCameraKeys, settings.camera);
+  toml.table("tool");
+  write_keys(toml, kToolKeys, settings.tool);
+  toml.table("tubesheet");
+  write_keys(toml, kTubesheetKeys, settings.tubesheet);
+  for (const AddressesKey& list : kTubesheetLists) {
+    toml.addresses(list.key, (settings.tubesheet.*list.member).view());
+  }
+}
+
+void write_start(TomlWriter& toml, const core::StartSettings& start) {
+  std::vector<std::string> clicks;
+  for (const core::StartPoint& point : start.tubes) {
+    TomlWriter click(toml.manner());
+    write_keys(click, kAddressKeys, point.address);
+    click.numbers(kClickPlaceKey, point.at_px);
+    clicks.push_back(click.take_inline());
+  }
+  toml.table("start");
+  toml.inline_tables(kClicksKey, clicks);
+  write_key(toml, kStartWindowKey, start);
+  write_key(toml, kStartOptimumKey, start);
+}
+
+void write_limits(TomlWriter& toml, const core::SessionSettings& settings) {
+  toml.table("motion");
+  write_keys(toml, kMotionKeys, settings.motion);
+  toml.table("edges");
+  write_keys(toml, kEdgeKeys, settings.edges);
+  toml.table("verification");
+  write_keys(toml, kVerificationKeys, settings.verification);
+}
+
+std::string session_text(const core::SessionSettings& settings) {
+  TomlWriter toml(TomlManner::kPlain);
+  write_plant(toml, settings);
+  write_limits(toml, settings);
+  if (!settings.start.tubes.empty()) {
+    write_start(toml, settings.start);
+  }
+  return toml.take();
+}
+
+}  // namespace tubesight::drivers

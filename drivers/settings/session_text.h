@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/settings.h"
+#include "drivers/settings/toml_writer.h"
+
+namespace tubesight::drivers {
+
+// What the reader of a session's tables (session_tables.h) makes of these is the settings to the
+// last bit; both go by the keys of session_keys.h.
+
+/// `[camera]`, `[tool]` and `[tubesheet]`: what a plant is.
+void write_plant(TomlWriter& toml, const core::SessionSettings& settings);
+
+/// `[start]` with the clicks given.
+void write_start(TomlWriter& toml, const core::StartSettings& start);
+
+/// `[motion]`, `[edges]` and `[verification]`: what the box goes by.
+void write_limits(TomlWriter& toml, const core::SessionSettings& settings);
+
+/// A session's file: all of these, `[start]` last and only where there are clicks.
+[[nodiscard]] std::string session_text(const core::SessionSettings& settings);
+
+}  // namespace tubesight::drivers
