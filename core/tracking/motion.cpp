@@ -71,6 +71,21 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   return std::min(farthest, std::max(std::min(widest, unique), grown));
 }
 
+// sqrt(2) sigma span / interval; neither factor beyond 32, where the track is lost anyway.
+template <Scalar S>
+Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> span_s) {
+  using M = Mm<S>;
+  if (!motion.known) {
+    return {};
+  }
+  const M most = from_scaled<M>(32, 0);
+  const M ratio = motion.interval_s < times(span_s, from_scaled<Unit<S>>(1, 5))
+                      ? most
+                      : quotient<M>(convert<M>(span_s), convert<M>(motion.interval_s));
+  const M root_two = from_scaled<M>(1449, 10);
+  return times(times(std::min(place_mm, most), root_two), std::min(ratio, most));
+}
+
 template <Scalar S>
 Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,
                          const SheetPose<S>& after, const ToolPoint<S>& tool_after,
@@ -106,6 +121,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
   template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \
   template Mm<S> address_limit_mm<S>(const TrackingModel<S>&);                                     \
+  template Mm<S> velocity_deviation_mm<S>(const Motion<S>&, Mm<S>, Unit<S>);                       \
   template Motion<S> motion_between<S>(const SheetPose<S>&, const ToolPoint<S>&,                   \
                                        const SheetPose<S>&, const ToolPoint<S>&, const Motion<S>&, \
                                        Unit<S>);

@@ -53,6 +53,12 @@ template <Scalar S>
 template <Scalar S>
 [[nodiscard]] Mm<S> address_limit_mm(const TrackingModel<S>& model);
 
+/// What the last velocity's own uncertainty adds to a place predicted over `span_s`: the difference
+/// of two places, each known to `place_mm` (one standard deviation of what differs from picture to
+/// picture), over their interval, carried on over the span. 0 while the motion is not known.
+template <Scalar S>
+[[nodiscard]] Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> span_s);
+
 /// The motion from one fitted pose to the next; both with the same anchor.
 template <Scalar S>
 [[nodiscard]] Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,

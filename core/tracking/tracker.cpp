@@ -71,11 +71,7 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
     lose(Reason::kArithmetic);
     report(field, sighting, tubes);
   }
-  // A missing field is no field: one that comes late after all may be older than its giving up.
-  if (field.status != FieldStatus::kMissing) {
-    seen_time_ = field.mid_exposure;
-    seen_sequence_ = field.sequence;
-  }
+  clock_.see(field);
 }
 
 // Why the tool can be too far from where it is expected, though no picture was unusable. With no
@@ -171,27 +167,25 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
 template <Scalar S>
 void Tracker<S>::follow(const Field& field) {
   using M = Mm<S>;
-  const bool no_field = field.status == FieldStatus::kMissing;
-  if (field.mid_exposure <= seen_time_) {
-    lose(Reason::kTime);
-    return;
-  }
-  if (!no_field && field.sequence < seen_sequence_) {
-    lose(Reason::kSequence);
+  if (const Reason refused = clock_.refuses(field); refused != Reason::kNone) {
+    lose(refused);
     return;
   }
   if (!model_->margin_check) {
     follow_unchecked(field);
     return;
   }
-  const bool missing = misses_fields(field);
-  const FieldTime span = span_since_good(field);
-  if (span >= std::chrono::seconds(1)) {
+  const auto [missing, since_good] = clock_.pass(field);
+  if (missing) {
+    order_.miss();
+  }
+  if (since_good >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
     return;
   }
-  const Unit<S> span_s = seconds<S>(span);
-  predicted_deviation_mm_ = deviation_mm_ + velocity_deviation_mm(span_s);
+  const Unit<S> span_s = seconds<S>(since_good);
+  predicted_deviation_mm_ =
+      deviation_mm_ + velocity_deviation_mm<S>(motion_, picture_deviation_mm_, span_s);
   const M reach = reachable_mm<S>(*model_, motion_, span_s, predicted_deviation_mm_);
   const M uncertain =
       reach + predicted_deviation_mm_ + predicted_deviation_mm_ + predicted_deviation_mm_;
@@ -209,6 +203,7 @@ void Tracker<S>::follow(const Field& field) {
   }
   const M believed = std::min(believed_mm_, reach);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
+    const bool no_field = field.status == FieldStatus::kMissing;
     coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
     return;
   }
@@ -262,8 +257,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   predicted_deviation_mm_ = outcome.deviation_mm;
   picture_deviation_mm_ = outcome.picture_deviation_mm;
   residual_px_ = outcome.fit.rms_px;
-  last_time_ = field.mid_exposure;
-  last_sequence_ = field.sequence;
+  clock_.believe(field);
   contradictions_ = 0;
   to_agree_ = std::max(to_agree_ - 1, 0);
   learn_noise();

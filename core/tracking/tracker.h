@@ -7,6 +7,7 @@
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
+#include "core/tracking/field_clock.h"
 #include "core/tracking/field_measurement.h"
 #include "core/tracking/field_order.h"
 #include "core/tracking/motion.h"
@@ -70,10 +71,7 @@ class Tracker {
 
   void start(const Field& field);
   [[nodiscard]] bool confirms_clicks(const Outcome& outcome) const;
-  [[nodiscard]] bool misses_fields(const Field& field);
   [[nodiscard]] Reason why_too_far(bool missing, Mm<S> reach_mm) const;
-  [[nodiscard]] FieldTime span_since_good(const Field& field);
-  [[nodiscard]] Mm<S> velocity_deviation_mm(Unit<S> span_s) const;
   void follow(const Field& field);
   void follow_unchecked(const Field& field);
   [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
@@ -116,16 +114,10 @@ class Tracker {
   Mm<S> believed_mm_{};             ///< reach at the first field that refuted the prediction
   Mm<S> strayed_mm_{};              ///< how far it may be off besides, while coasting
   Motion<S> motion_{};
-  FieldTime last_time_{0};          ///< of the last good field
-  std::int64_t last_sequence_ = 0;  ///< of the last good field
-  FieldTime seen_time_{0};          ///< of the last field, good or not
-  std::int64_t seen_sequence_ = 0;
-  std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
-  std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
-  std::int64_t usual_span_ns_ = 0;    ///< shortest time from field to field; 0: not known
-  std::int32_t contradictions_ = 0;   ///< fields in a row that refuted the prediction
-  std::int32_t to_agree_ = 0;         ///< fields that must agree before a tube is named again
-  Reason doubted_ = Reason::kNone;    ///< why
+  FieldClock clock_{};
+  std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
+  std::int32_t to_agree_ = 0;        ///< fields that must agree before a tube is named again
+  Reason doubted_ = Reason::kNone;   ///< why
   PictureMemory memory_{};
   PictureLikeness likeness_{};  ///< of the last field that was looked at
   std::int32_t rested_ = 0;     ///< fields in a row with the tool at rest

@@ -60,7 +60,7 @@ void Tracker<S>::look_aside(const Field& field) {
 template <Scalar S>
 bool Tracker<S>::order_explains() const {
   // mm a field and field, in 1/1024: m/s^2 times us^2 are 1e-9 mm.
-  const std::int64_t field_us = usual_span_ns_ / 1000;
+  const std::int64_t field_us = clock_.usual_span_ns() / 1000;
   const std::int64_t change =
       std::int64_t{to_scaled(model_->max_acceleration_m_s2, 10)} * field_us * field_us;
   return order_.wrong() || order_.explains(static_cast<std::int32_t>(change / 1'000'000'000));

@@ -18,9 +18,7 @@ void Tracker<S>::start(const Field& field) {
   likeness_ = {};
   noisy_ = false;
   rested_ = 0;
-  per_sequence_ns_ = 0;
-  usual_numbers_ = 0;
-  usual_span_ns_ = 0;
+  clock_.begin();
   order_.begin();
   record_.plugs.clear();
   record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);

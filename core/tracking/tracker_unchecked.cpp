@@ -8,7 +8,7 @@ namespace tubesight::core::tracking {
 // follow() does without reach, limit and gate.
 template <Scalar S>
 void Tracker<S>::follow_unchecked(const Field& field) {
-  const Unit<S> span_s = seconds<S>(field.mid_exposure - last_time_);
+  const Unit<S> span_s = seconds<S>(clock_.stamped_since_good(field));
   const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
   predicted_deviation_mm_ = deviation_mm_;
   if (field.status != FieldStatus::kGood) {
