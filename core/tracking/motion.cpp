@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/instantiate.h"
+#include "core/tracking/plane_length.h"
 
 namespace tubesight::core::tracking {
 
@@ -11,6 +12,11 @@ Unit<S> seconds(FieldTime span) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   const std::int64_t bounded = std::clamp<std::int64_t>(span.count(), 0, kSecond);
   return from_scaled<Unit<S>>(divide_rounded(bounded << 30, kSecond), 30);
+}
+
+template <Scalar S>
+bool rests(const Motion<S>& motion) {
+  return motion.known && plane_length(motion.velocity_mm_s) < from_scaled<Mm<S>>(3, 0);
 }
 
 template <Scalar S>
@@ -117,6 +123,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
 
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
   template Unit<S> seconds<S>(FieldTime);                                                          \
+  template bool rests<S>(const Motion<S>&);                                                        \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
   template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \

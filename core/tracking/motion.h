@@ -25,6 +25,11 @@ struct Motion {
   Vector3<Mm<S>> turn_rad_s{};     ///< of the sheet before the camera, camera axes
 };
 
+/// Whether the tool stands still as far as a picture tells: under 3 mm/s, a twentieth of a
+/// millimetre from field to field.
+template <Scalar S>
+[[nodiscard]] bool rests(const Motion<S>& motion);
+
 /// The pose after `span_s` at constant motion.
 template <Scalar S>
 [[nodiscard]] SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,

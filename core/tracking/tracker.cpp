@@ -165,6 +165,12 @@ FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, 
 }
 
 template <Scalar S>
+bool Tracker<S>::shows_old_picture(const Field& field) {
+  return old_pictures_.shows_old(field, model_->window_left_px, model_->window_top_px,
+                                 model_->window_right_px, model_->window_bottom_px);
+}
+
+template <Scalar S>
 void Tracker<S>::follow(const Field& field) {
   using M = Mm<S>;
   if (const Reason refused = clock_.refuses(field); refused != Reason::kNone) {
@@ -260,7 +266,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
   clock_.believe(field);
   contradictions_ = 0;
   to_agree_ = std::max(to_agree_ - 1, 0);
-  learn_noise();
+  old_pictures_.believe(rests<S>(motion_));
   note_place(field, tool_.local);
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little

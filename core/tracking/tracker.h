@@ -12,7 +12,7 @@
 #include "core/tracking/field_order.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/normal_equations.h"
-#include "core/tracking/picture_memory.h"
+#include "core/tracking/old_picture_watch.h"
 #include "core/tracking/pose_fit.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
@@ -81,7 +81,6 @@ class Tracker {
   [[nodiscard]] Reason gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
                             Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
-  void learn_noise();
   void note_place(const Field& field, const Vector2<Mm<S>>& local);
   void look_aside(const Field& field);
   [[nodiscard]] bool order_explains() const;
@@ -118,10 +117,7 @@ class Tracker {
   std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
   std::int32_t to_agree_ = 0;        ///< fields that must agree before a tube is named again
   Reason doubted_ = Reason::kNone;   ///< why
-  PictureMemory memory_{};
-  PictureLikeness likeness_{};  ///< of the last field that was looked at
-  std::int32_t rested_ = 0;     ///< fields in a row with the tool at rest
-  bool noisy_ = false;  ///< pictures of a tool at rest differ: equal ones are no new pictures
+  OldPictureWatch old_pictures_{};
   FieldOrder order_{};
   SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found
   bool aside_known_ = false;

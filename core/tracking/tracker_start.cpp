@@ -14,10 +14,7 @@ void Tracker<S>::start(const Field& field) {
   motion_ = {};
   contradictions_ = 0;
   to_agree_ = 0;
-  memory_.clear();
-  likeness_ = {};
-  noisy_ = false;
-  rested_ = 0;
+  old_pictures_.begin();
   clock_.begin();
   order_.begin();
   record_.plugs.clear();

@@ -215,5 +215,17 @@ TYPED_TEST(MotionOf, CarriesTheVelocitysDeviationOnOverTheSpan) {
   EXPECT_NEAR(deviation(motion, 0.1, 0.9), 4.5255, 5e-3);
 }
 
+TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
+  using S = TypeParam;
+  Motion<S> motion;
+  EXPECT_FALSE(rests<S>(motion)) << "an unknown motion is none at rest";
+  motion.known = true;
+  EXPECT_TRUE(rests<S>(motion));
+  motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.2)};  // 2.97 mm/s
+  EXPECT_TRUE(rests<S>(motion));
+  motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
+  EXPECT_FALSE(rests<S>(motion));
+}
+
 }  // namespace
 }  // namespace tubesight::core::tracking
