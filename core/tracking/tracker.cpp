@@ -279,7 +279,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
     reason_ = doubted_;
   }
   state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
-  choose_primary();
+  primary_.choose<S>(record_.measured, model_->optimum_px);
   reanchor();
   shown_ = pose_;
   tool_shown_ = tool_;
@@ -326,50 +326,19 @@ void Tracker<S>::lose(Reason reason) {
   state_ = TrackState::kLost;
   measured_now_ = false;
   reason_ = reason;
-  primary_known_ = false;
+  primary_.forget();
   record_.begin_field();
-}
-
-// The measured tube-end nearest to the optimum point, kept until another is nearer by 10 %.
-template <Scalar S>
-void Tracker<S>::choose_primary() {
-  const auto distance2 = [this](const TubeMeasurement<S>& tube) {
-    const std::int32_t u = rounded(tube.center_px.x) - rounded(model_->optimum_px.x);
-    const std::int32_t v = rounded(tube.center_px.y) - rounded(model_->optimum_px.y);
-    return u * u + v * v;
-  };
-  const TubeMeasurement<S>* nearest = nullptr;
-  const TubeMeasurement<S>* kept = nullptr;
-  for (const auto& tube : record_.measured) {
-    if (!tube.used) {
-      continue;
-    }
-    if (nearest == nullptr || distance2(tube) < distance2(*nearest)) {
-      nearest = &tube;
-    }
-    if (primary_known_ && tube.address == primary_) {
-      kept = &tube;
-    }
-  }
-  if (nearest == nullptr) {
-    return;
-  }
-  // 10 % in distance is 19 % in its square.
-  const bool stay = kept != nullptr &&
-                    100 * std::int64_t{distance2(*nearest)} >= 81 * std::int64_t{distance2(*kept)};
-  primary_ = stay ? kept->address : nearest->address;
-  primary_known_ = true;
 }
 
 // Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
 template <Scalar S>
 void Tracker<S>::reanchor() {
-  if (!primary_known_ || primary_ == pose_.anchor) {
+  if (!primary_.known() || primary_.is(pose_.anchor)) {
     return;
   }
-  const auto shift = model_->lattice.offset(pose_.anchor, primary_);
+  const auto shift = model_->lattice.offset(pose_.anchor, primary_.address());
   pose_.origin = pose_.origin + pose_.along(shift);
-  pose_.anchor = primary_;
+  pose_.anchor = primary_.address();
   tool_.local = tool_.local - shift;
   order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
   for (auto& tube : record_.measured) {

@@ -14,6 +14,7 @@
 #include "core/tracking/normal_equations.h"
 #include "core/tracking/old_picture_watch.h"
 #include "core/tracking/pose_fit.h"
+#include "core/tracking/primary_tube.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
 #include "core/tracking/tool_point.h"
@@ -91,7 +92,6 @@ class Tracker {
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
   void report_tool(Sighting& sighting) const;
-  void choose_primary();
 
   const TrackingModel<S>* model_;
   const tubesheet::SheetMap* map_;
@@ -122,8 +122,7 @@ class Tracker {
   SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found
   bool aside_known_ = false;
   bool measured_now_ = false;
-  bool primary_known_ = false;
-  TubeAddress primary_{};
+  PrimaryTube primary_{};
 
   FieldRecord<S> record_{};
   CandidateList<S> candidates_{};

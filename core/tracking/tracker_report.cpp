@@ -52,9 +52,9 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
     seen.quality_permyriad = tube.used ? std::max(share - share * spread / 1024, 1) : 0;
     sighting.tracked += tube.used ? 1 : 0;
     static_cast<void>(tubes.try_push_back(seen));
-    if (primary_known_ && tube.address == primary_) {
+    if (primary_.is(tube.address)) {
       sighting.primary_known = true;
-      sighting.primary = primary_;
+      sighting.primary = tube.address;
       sighting.primary_px = seen.center_px;
     }
   }

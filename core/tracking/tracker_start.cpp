@@ -10,7 +10,7 @@ template <Scalar S>
 void Tracker<S>::start(const Field& field) {
   state_ = TrackState::kWaiting;
   reason_ = Reason::kStartRefused;
-  primary_known_ = false;
+  primary_.forget();
   motion_ = {};
   contradictions_ = 0;
   to_agree_ = 0;
