@@ -3,49 +3,10 @@
 #include <algorithm>
 
 #include "core/base/instantiate.h"
-#include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
 
 namespace tubesight::core::tracking {
-namespace {
-
-template <typename T>
-std::int32_t rounded(T value) {
-  return to_scaled(value, 0);
-}
-
-// What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
-template <typename M>
-M systematic_mm() {
-  return from_scaled<M>(102, 10);
-}
-
-// How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
-template <typename M>
-M bisected_mm() {
-  return from_scaled<M>(512, 10);
-}
-
-template <Scalar S>
-PosePrior<S> prior_from_last_field() {
-  PosePrior<S> prior;
-  // Lean 0.5 degrees; turn 0.1 degrees and height 0.5 mm a field: kEdgeDeviation^2 / sigma^2.
-  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
-  prior.turn_weight = from_scaled<Mm<S>>(819, 10);
-  prior.height_weight = from_scaled<Mm<S>>(164, 10);
-  return prior;
-}
-
-template <Scalar S>
-PosePrior<S> prior_at_start() {
-  PosePrior<S> prior;
-  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
-  return prior;
-}
-
-}  // namespace
-
 template <Scalar S>
 void Tracker<S>::request_start(const StartClickList& clicks) {
   clicks_ = clicks;
@@ -55,7 +16,7 @@ void Tracker<S>::request_start(const StartClickList& clicks) {
 template <Scalar S>
 void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
   measured_now_ = false;
-  record_.begin_field();
+  observer_.clear_field();
   static_cast<void>(take_overflow_flag());
   if (start_requested_) {
     start_requested_ = false;
@@ -83,85 +44,8 @@ Reason Tracker<S>::why_too_far(bool missing, Mm<S> reach_mm) const {
     return Reason::kGap;
   }
   constexpr std::int32_t kDeviations = 3;
-  const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_mm<Mm<S>>());
+  const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_deviation_mm<Mm<S>>());
   return reach_mm + least > address_limit_mm<S>(*model_) ? Reason::kRate : Reason::kUncertain;
-}
-
-template <Scalar S>
-typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
-                                                 const SheetPose<S>& predicted, Mm<S> reach_mm,
-                                                 bool confirm_all) {
-  using M = Mm<S>;
-  Outcome outcome;
-  outcome.pose = predicted;
-  const auto light = judge_light(field, model_->window_left_px, model_->window_top_px,
-                                 model_->window_right_px, model_->window_bottom_px);
-  if (light != PictureLight::kUsable) {
-    outcome.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
-    return outcome;
-  }
-  list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
-  // Pixels per mm at the anchor, in the middle of the view.
-  const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, outcome.pose.origin.z);
-  std::int32_t range_px = 3 + rounded(times(reach_mm, px_per_mm));
-  if (range_px > 9) {
-    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach_mm + bisected_mm<M>(),
-                                    record_.light, outcome.pose)) {
-      outcome.trouble = Reason::kNoTubes;
-      outcome.contradiction = true;
-      return outcome;
-    }
-    list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
-    range_px = 6;
-  }
-  const FindingCount found = measure(field, range_px, outcome);
-  // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
-  outcome.contradiction = found.bright > std::max(outcome.fit.used, 2) ||
-                          (confirm_all && 2 * found.measured < found.looked_at);
-  if (!outcome.fit.solved || outcome.fit.used < 2) {
-    // There is light and no tube-end where they must be: no reason to wait for a better picture.
-    outcome.trouble = Reason::kNoTubes;
-    outcome.contradiction = true;
-    return outcome;
-  }
-  const auto tool = find_tool_point<S>(*model_, outcome.pose);
-  if (!tool) {
-    outcome.trouble = Reason::kNoTubes;
-    outcome.contradiction = true;
-    return outcome;
-  }
-  outcome.tool = *tool;
-  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
-  // of a rim point's fit is known to some 0.125 px then.
-  const M excess = std::max(M(1), times(convert<M>(outcome.fit.rms_px), from_scaled<M>(8, 0)));
-  outcome.picture_deviation_mm =
-      times(tool_point_deviation<S>(outcome.pose, *tool, equations_), excess);
-  outcome.deviation_mm = plane_length(Vector2<M>{outcome.picture_deviation_mm, systematic_mm<M>()});
-  outcome.fitted = true;
-  return outcome;
-}
-
-// Looks around the predicted rims as far as the prediction may be off for the nearest few tube-ends
-// only; they tell the motion, and the others are looked for closely.
-template <Scalar S>
-FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, Outcome& outcome) {
-  constexpr std::int32_t kScouts = 6;
-  constexpr std::int32_t kCloseRangePx = 3;
-  record_.begin_field();
-  const PosePrior<S> prior = motion_.known ? prior_from_last_field<S>() : prior_at_start<S>();
-  FindingCount found;
-  if (range_px > kCloseRangePx) {
-    found = measure_field<S>(*model_, field, outcome.pose, candidates_,
-                             {0, candidates_.size(), range_px, kScouts}, record_);
-    outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
-    if (!outcome.fit.solved) {
-      return found;
-    }
-  }
-  found += measure_field<S>(*model_, field, outcome.pose, candidates_,
-                            {found.next, candidates_.size(), kCloseRangePx}, record_);
-  outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
-  return found;
 }
 
 template <Scalar S>
@@ -213,7 +97,8 @@ void Tracker<S>::follow(const Field& field) {
     coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
     return;
   }
-  const Outcome outcome = observe(field.pixels, predicted, believed, false);
+  const Observation<S> outcome =
+      observer_.observe(field.pixels, {predicted, believed, motion_.known});
   if (outcome.contradiction) {
     look_aside(field);
     doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted, reach);
@@ -232,8 +117,8 @@ void Tracker<S>::follow(const Field& field) {
 }
 
 template <Scalar S>
-Reason Tracker<S>::gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
-                        Unit<S> span_s) const {
+Reason Tracker<S>::gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
+                        Mm<S> reach_mm, Unit<S> span_s) const {
   using M = Mm<S>;
   const auto expected = find_tool_point<S>(*model_, predicted);
   if (!expected) {
@@ -253,7 +138,7 @@ Reason Tracker<S>::gate(const Outcome& outcome, const SheetPose<S>& predicted, M
 }
 
 template <Scalar S>
-void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span_s) {
+void Tracker<S>::accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s) {
   if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
     motion_ = motion_between<S>(pose_, tool_, outcome.pose, outcome.tool, motion_, span_s);
   }
@@ -279,7 +164,7 @@ void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span
     reason_ = doubted_;
   }
   state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
-  primary_.choose<S>(record_.measured, model_->optimum_px);
+  primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
   shown_ = pose_;
   tool_shown_ = tool_;
@@ -315,7 +200,7 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach
   }
   state_ = TrackState::kDegraded;
   reason_ = reason;
-  record_.begin_field();
+  observer_.clear_field();
   shown_ = predicted;
   tool_shown_ = *tool;
   strayed_mm_ = reach_mm;
@@ -327,7 +212,7 @@ void Tracker<S>::lose(Reason reason) {
   measured_now_ = false;
   reason_ = reason;
   primary_.forget();
-  record_.begin_field();
+  observer_.clear_field();
 }
 
 // Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
@@ -341,9 +226,6 @@ void Tracker<S>::reanchor() {
   pose_.anchor = primary_.address();
   tool_.local = tool_.local - shift;
   order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
-  for (auto& tube : record_.measured) {
-    tube.local = tube.local - shift;
-  }
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(Tracker)

@@ -8,13 +8,11 @@
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
 #include "core/tracking/field_clock.h"
-#include "core/tracking/field_measurement.h"
 #include "core/tracking/field_order.h"
 #include "core/tracking/motion.h"
-#include "core/tracking/normal_equations.h"
 #include "core/tracking/old_picture_watch.h"
-#include "core/tracking/pose_fit.h"
 #include "core/tracking/primary_tube.h"
+#include "core/tracking/sheet_observer.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
 #include "core/tracking/tool_point.h"
@@ -36,7 +34,7 @@ template <Scalar S>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
-      : model_(&model), map_(&map) {}
+      : model_(&model), map_(&map), observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
   void request_start(const StartClickList& clicks);
@@ -59,33 +57,18 @@ class Tracker {
   [[nodiscard]] const SheetPose<S>& shown() const { return shown_; }
 
  private:
-  struct Outcome {
-    bool fitted = false;
-    Reason trouble = Reason::kNone;  ///< why not
-    bool contradiction = false;      ///< the picture is good and refutes the prediction
-    PoseFit<S> fit{};
-    SheetPose<S> pose{};
-    ToolPoint<S> tool{};
-    Mm<S> deviation_mm{};
-    Mm<S> picture_deviation_mm{};  ///< the picture's share of it
-  };
-
   void start(const Field& field);
-  [[nodiscard]] bool confirms_clicks(const Outcome& outcome) const;
+  [[nodiscard]] bool confirms_clicks(const Observation<S>& outcome) const;
   [[nodiscard]] Reason why_too_far(bool missing, Mm<S> reach_mm) const;
   void follow(const Field& field);
   void follow_unchecked(const Field& field);
-  [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
-                                Mm<S> reach_mm, bool confirm_all);
-  [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
-                                     Outcome& outcome);
-  [[nodiscard]] Reason gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
-                            Unit<S> span_s) const;
+  [[nodiscard]] Reason gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
+                            Mm<S> reach_mm, Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
   void note_place(const Field& field, const Vector2<Mm<S>>& local);
   void look_aside(const Field& field);
   [[nodiscard]] bool order_explains() const;
-  void accept(const Outcome& outcome, const Field& field, Unit<S> span_s);
+  void accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s);
   void reanchor();
   void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
   void coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
@@ -124,9 +107,7 @@ class Tracker {
   bool measured_now_ = false;
   PrimaryTube primary_{};
 
-  FieldRecord<S> record_{};
-  CandidateList<S> candidates_{};
-  NormalEquations<S> equations_{};
+  SheetObserver<S> observer_;
 };
 
 }  // namespace tubesight::core::tracking

@@ -34,14 +34,10 @@ void Tracker<S>::look_aside(const Field& field) {
   if (!aside_known_) {
     return;
   }
-  // What is learnt of light and plugs is learnt from pictures that are believed.
-  const LightLevels light = record_.light;
-  const PlugMemory plugs = record_.plugs;
   const M reach = address_limit_mm<S>(*model_) - deviation_mm_ - deviation_mm_ - deviation_mm_;
   const bool overflowed = take_overflow_flag();
-  const Outcome outcome = observe(field.pixels, aside_, std::max(reach, M{}), false);
-  record_.light = light;
-  record_.plugs = plugs;
+  const Observation<S> outcome =
+      observer_.glance(field.pixels, {aside_, std::max(reach, M{}), motion_.known});
   const bool overflowed_aside = take_overflow_flag();
   if (overflowed) {
     raise_overflow_flag();

@@ -42,7 +42,7 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
   if (measured_now_) {
     sighting.residual_px_q16 = to_scaled(residual_px_, 16);
   }
-  for (const auto& tube : record_.measured) {
+  for (const auto& tube : observer_.record().measured) {
     TubeSighting seen;
     seen.address = tube.address;
     seen.center_px = {to_scaled(tube.center_px.x, 16), to_scaled(tube.center_px.y, 16)};
@@ -58,7 +58,7 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
       sighting.primary_px = seen.center_px;
     }
   }
-  for (const auto& plug : record_.plugs_seen) {
+  for (const auto& plug : observer_.record().plugs_seen) {
     TubeSighting seen;
     seen.address = plug.address;
     seen.center_px = {to_scaled(plug.center_px.x, 16), to_scaled(plug.center_px.y, 16)};

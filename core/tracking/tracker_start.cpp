@@ -17,35 +17,34 @@ void Tracker<S>::start(const Field& field) {
   old_pictures_.begin();
   clock_.begin();
   order_.begin();
-  record_.plugs.clear();
-  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
-  record_.light.region_threshold = model_->region_threshold;
+  observer_.begin();
   if (field.status != FieldStatus::kGood) {
     start_refusal_ = StartRefusal::kPicture;
     return;
   }
   SheetPose<S> pose;
-  start_refusal_ = find_start_pose<S>(*model_, *map_, field.pixels, clicks_, record_.light, pose);
+  start_refusal_ = observer_.find_start(field.pixels, clicks_, pose);
   if (start_refusal_ != StartRefusal::kNone) {
     return;
   }
   // The rough pose of three bisected tube-ends is refined on the whole window until it settles.
-  Outcome outcome;
+  Observation<S> outcome;
   outcome.pose = pose;
   for (int round = 0; round < 4; ++round) {
-    outcome = observe(field.pixels, outcome.pose, from_scaled<Mm<S>>(2, 0), round == 3);
+    outcome = observer_.observe(field.pixels,
+                                {outcome.pose, from_scaled<Mm<S>>(2, 0), false, round == 3});
     if (!outcome.fitted) {
       break;
     }
   }
   if (!outcome.fitted || outcome.contradiction || outcome.fit.used < 3) {
     start_refusal_ = StartRefusal::kPicture;
-    record_.begin_field();  // addresses that were refuted are not told
+    observer_.clear_field();  // addresses that were refuted are not told
     return;
   }
   if (!confirms_clicks(outcome)) {
     start_refusal_ = StartRefusal::kAddresses;
-    record_.begin_field();
+    observer_.clear_field();
     return;
   }
   accept(outcome, field, Unit<S>{});
@@ -55,7 +54,7 @@ void Tracker<S>::start(const Field& field) {
 // window's tube-ends must lie on the fitted plane: clicks far apart would let one wrong address
 // pass as a bad fit of three.
 template <Scalar S>
-bool Tracker<S>::confirms_clicks(const Outcome& outcome) const {
+bool Tracker<S>::confirms_clicks(const Observation<S>& outcome) const {
   if (outcome.fit.rms_px > Px<S>(1)) {
     return false;
   }
@@ -76,7 +75,7 @@ bool Tracker<S>::confirms_clicks(const Outcome& outcome) const {
 
 #define TUBESIGHT_INSTANTIATE(S)                 \
   template void Tracker<S>::start(const Field&); \
-  template bool Tracker<S>::confirms_clicks(const Outcome&) const;
+  template bool Tracker<S>::confirms_clicks(const Observation<S>&) const;
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

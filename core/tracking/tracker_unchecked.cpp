@@ -17,7 +17,8 @@ void Tracker<S>::follow_unchecked(const Field& field) {
   }
   const Mm<S> half_step =
       times(model_->lattice.parameters().shortest_step, from_scaled<Mm<S>>(1, 1));
-  const Outcome outcome = observe(field.pixels, predicted, half_step, false);
+  const Observation<S> outcome =
+      observer_.observe(field.pixels, {predicted, half_step, motion_.known});
   if (!outcome.fitted) {
     coast(outcome.trouble, predicted, {});
     return;
