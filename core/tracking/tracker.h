@@ -7,6 +7,7 @@
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
+#include "core/tracking/doubt.h"
 #include "core/tracking/field_clock.h"
 #include "core/tracking/field_order.h"
 #include "core/tracking/motion.h"
@@ -15,6 +16,7 @@
 #include "core/tracking/sheet_observer.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
+#include "core/tracking/tool_gate.h"
 #include "core/tracking/tool_point.h"
 #include "core/tracking/tracking_model.h"
 #include "core/tubesheet/sheet_map.h"
@@ -34,7 +36,7 @@ template <Scalar S>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
-      : model_(&model), map_(&map), observer_(model, map) {}
+      : model_(&model), map_(&map), gate_(model), observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
   void request_start(const StartClickList& clicks);
@@ -59,19 +61,18 @@ class Tracker {
  private:
   void start(const Field& field);
   [[nodiscard]] bool confirms_clicks(const Observation<S>& outcome) const;
-  [[nodiscard]] Reason why_too_far(bool missing, Mm<S> reach_mm) const;
   void follow(const Field& field);
   void follow_unchecked(const Field& field);
   [[nodiscard]] Reason gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
-                            Mm<S> reach_mm, Unit<S> span_s) const;
+                            Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
   void note_place(const Field& field, const Vector2<Mm<S>>& local);
   void look_aside(const Field& field);
   [[nodiscard]] bool order_explains() const;
   void accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s);
   void reanchor();
-  void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
-  void coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
+  void doubt(Reason reason, const SheetPose<S>& predicted);
+  void coast(Reason reason, const SheetPose<S>& predicted);
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
   void report_tool(Sighting& sighting) const;
@@ -89,17 +90,11 @@ class Tracker {
   SheetPose<S> shown_{};  ///< of this field: fitted, or predicted while coasting
   ToolPoint<S> tool_{};   ///< of pose_
   ToolPoint<S> tool_shown_{};
-  Mm<S> deviation_mm_{};            ///< of tool_, one standard deviation
-  Mm<S> picture_deviation_mm_{};    ///< of tool_, without what is systematic
-  Mm<S> predicted_deviation_mm_{};  ///< of tool_shown_
-  Px<S> residual_px_{};             ///< of the tube-ends used in the last good field
-  Mm<S> believed_mm_{};             ///< reach at the first field that refuted the prediction
-  Mm<S> strayed_mm_{};              ///< how far it may be off besides, while coasting
+  Px<S> residual_px_{};  ///< of the tube-ends used in the last good field
+  ToolGate<S> gate_;
   Motion<S> motion_{};
   FieldClock clock_{};
-  std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
-  std::int32_t to_agree_ = 0;        ///< fields that must agree before a tube is named again
-  Reason doubted_ = Reason::kNone;   ///< why
+  Doubt doubt_{};
   OldPictureWatch old_pictures_{};
   FieldOrder order_{};
   SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found

@@ -23,21 +23,19 @@ void Tracker<S>::note_place(const Field& field, const Vector2<Mm<S>>& local) {
 // the reason if the track is lost.
 template <Scalar S>
 void Tracker<S>::look_aside(const Field& field) {
-  using M = Mm<S>;
   if (model_->first_field == Parity::kProgressive || !motion_.known) {
     return;
   }
-  if (contradictions_ == 0) {
+  if (!doubt_.contradicted()) {
     aside_ = pose_;
     aside_known_ = true;
   }
   if (!aside_known_) {
     return;
   }
-  const M reach = address_limit_mm<S>(*model_) - deviation_mm_ - deviation_mm_ - deviation_mm_;
   const bool overflowed = take_overflow_flag();
   const Observation<S> outcome =
-      observer_.glance(field.pixels, {aside_, std::max(reach, M{}), motion_.known});
+      observer_.glance(field.pixels, {aside_, gate_.widest_look_mm(), motion_.known});
   const bool overflowed_aside = take_overflow_flag();
   if (overflowed) {
     raise_overflow_flag();

@@ -66,8 +66,7 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
     static_cast<void>(tubes.try_push_back(seen));
   }
   // After a picture that refuted the prediction nothing is said of the tool until two agree.
-  if (contradictions_ == 0 && to_agree_ == 0 &&
-      (state_ == TrackState::kTracking || state_ == TrackState::kDegraded)) {
+  if (!doubt_.lasts() && (state_ == TrackState::kTracking || state_ == TrackState::kDegraded)) {
     report_tool(sighting);
   }
 }
@@ -93,7 +92,7 @@ void Tracker<S>::report_tool(Sighting& sighting) const {
   const TubeAddress nearest = model_->lattice.nearest(shown_.anchor, tool_shown_.local);
   const auto off = tool_shown_.local - model_->lattice.offset(shown_.anchor, nearest);
   const M to_edge = model_->lattice.distance_to_cell_edge(nearest, off);
-  const M margin = quotient<M>(to_edge - strayed_mm_, predicted_deviation_mm_);
+  const M margin = gate_.margin(to_edge);
   sighting.margin_known = true;
   sighting.margin_permyriad =
       static_cast<std::int32_t>(divide_rounded(std::int64_t{to_scaled(margin, 16)} * 10000, 65536));

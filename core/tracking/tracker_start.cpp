@@ -12,8 +12,7 @@ void Tracker<S>::start(const Field& field) {
   reason_ = Reason::kStartRefused;
   primary_.forget();
   motion_ = {};
-  contradictions_ = 0;
-  to_agree_ = 0;
+  doubt_.clear();
   old_pictures_.begin();
   clock_.begin();
   order_.begin();

@@ -10,9 +10,8 @@ template <Scalar S>
 void Tracker<S>::follow_unchecked(const Field& field) {
   const Unit<S> span_s = seconds<S>(clock_.stamped_since_good(field));
   const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
-  predicted_deviation_mm_ = deviation_mm_;
   if (field.status != FieldStatus::kGood) {
-    coast(Reason::kDamagedField, predicted, {});
+    coast(Reason::kDamagedField, predicted);
     return;
   }
   const Mm<S> half_step =
@@ -20,7 +19,7 @@ void Tracker<S>::follow_unchecked(const Field& field) {
   const Observation<S> outcome =
       observer_.observe(field.pixels, {predicted, half_step, motion_.known});
   if (!outcome.fitted) {
-    coast(outcome.trouble, predicted, {});
+    coast(outcome.trouble, predicted);
     return;
   }
   accept(outcome, field, span_s);
