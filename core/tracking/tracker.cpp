@@ -77,8 +77,7 @@ void Tracker<S>::follow(const Field& field) {
   const Observation<S> outcome =
       observer_.observe(field.pixels, {predicted, gate_.believed_mm(), motion_.known});
   if (outcome.contradiction) {
-    look_aside(field);
-    doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted);
+    doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, field, predicted);
     return;
   }
   if (!outcome.fitted) {
@@ -86,8 +85,7 @@ void Tracker<S>::follow(const Field& field) {
     return;
   }
   if (const Reason refused = gate(outcome, predicted, span_s); refused != Reason::kNone) {
-    look_aside(field);
-    doubt(refused, predicted);
+    doubt(refused, field, predicted);
     return;
   }
   accept(outcome, field, span_s);
@@ -116,7 +114,7 @@ void Tracker<S>::accept(const Observation<S>& outcome, const Field& field, Unit<
   clock_.believe(field);
   doubt_.agree();
   old_pictures_.believe(rests<S>(motion_));
-  note_place(field, tool_.local);
+  order_.believe(field, tool_.local);
   measured_now_ = true;
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
   if (outcome.fit.used < 3) {
@@ -138,10 +136,13 @@ void Tracker<S>::accept(const Observation<S>& outcome, const Field& field, Unit<
 }
 
 template <Scalar S>
-void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted) {
+void Tracker<S>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
+  if (motion_.known) {
+    order_.look_aside(field, pose_, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
+  }
   doubt_.raise(reason);
   if (doubt_.is_certainty() || !motion_.known) {
-    lose(order_explains() ? Reason::kFieldOrder : reason);
+    lose(order_.explains(clock_.usual_span_ns()) ? Reason::kFieldOrder : reason);
     return;
   }
   coast(reason, predicted);
@@ -184,7 +185,7 @@ void Tracker<S>::reanchor() {
   pose_.origin = pose_.origin + pose_.along(shift);
   pose_.anchor = primary_.address();
   tool_.local = tool_.local - shift;
-  order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
+  order_.move_anchor(shift);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(Tracker)

@@ -9,7 +9,7 @@
 #include "core/tracking/candidates.h"
 #include "core/tracking/doubt.h"
 #include "core/tracking/field_clock.h"
-#include "core/tracking/field_order.h"
+#include "core/tracking/field_order_watch.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
 #include "core/tracking/primary_tube.h"
@@ -36,7 +36,7 @@ template <Scalar S>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
-      : model_(&model), map_(&map), gate_(model), observer_(model, map) {}
+      : model_(&model), map_(&map), gate_(model), order_(model), observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
   void request_start(const StartClickList& clicks);
@@ -66,12 +66,9 @@ class Tracker {
   [[nodiscard]] Reason gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
                             Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
-  void note_place(const Field& field, const Vector2<Mm<S>>& local);
-  void look_aside(const Field& field);
-  [[nodiscard]] bool order_explains() const;
   void accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s);
   void reanchor();
-  void doubt(Reason reason, const SheetPose<S>& predicted);
+  void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted);
   void coast(Reason reason, const SheetPose<S>& predicted);
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
@@ -96,9 +93,7 @@ class Tracker {
   FieldClock clock_{};
   Doubt doubt_{};
   OldPictureWatch old_pictures_{};
-  FieldOrder order_{};
-  SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found
-  bool aside_known_ = false;
+  FieldOrderWatch<S> order_;
   bool measured_now_ = false;
   PrimaryTube primary_{};
 
