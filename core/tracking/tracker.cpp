@@ -1,27 +1,20 @@
 #include "core/tracking/tracker.h"
 
-#include <algorithm>
-
 #include "core/base/instantiate.h"
-#include "core/tracking/plane_length.h"
-#include "core/tracking/projection.h"
+#include "core/base/overflow.h"
+#include "core/tracking/confirmed_start.h"
 
 namespace tubesight::core::tracking {
-template <Scalar S>
-void Tracker<S>::request_start(const StartClickList& clicks) {
-  clicks_ = clicks;
-  start_requested_ = true;
-}
 
 template <Scalar S>
 void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
-  measured_now_ = false;
+  judged_ = false;
   observer_.clear_field();
   static_cast<void>(take_overflow_flag());
-  if (start_requested_) {
-    start_requested_ = false;
-    start(field);
-  } else if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
+  if (clicks_) {
+    start(field, *clicks_);
+    clicks_.reset();
+  } else if (knows_place()) {
     follow(field);
   }
   if (take_overflow_flag() && state_ != TrackState::kWaiting) {
@@ -36,9 +29,27 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
 }
 
 template <Scalar S>
-bool Tracker<S>::shows_old_picture(const Field& field) {
-  return old_pictures_.shows_old(field, model_->window_left_px, model_->window_top_px,
-                                 model_->window_right_px, model_->window_bottom_px);
+void Tracker<S>::start(const Field& field, const StartClickList& clicks) {
+  state_ = TrackState::kWaiting;
+  reason_ = Reason::kStartRefused;
+  primary_.forget();
+  motion_ = {};
+  doubt_.clear();
+  old_pictures_.begin();
+  clock_.begin();
+  order_.begin();
+  observer_.begin();
+  if (field.status != FieldStatus::kGood) {
+    start_refusal_ = StartRefusal::kPicture;
+    return;
+  }
+  Observation<S> seen;
+  start_refusal_ = find_confirmed_start<S>(*model_, field.pixels, clicks, observer_, seen);
+  if (start_refusal_ != StartRefusal::kNone) {
+    observer_.clear_field();  // addresses that were refuted are not told
+    return;
+  }
+  accept(seen, field);
 }
 
 template <Scalar S>
@@ -62,83 +73,109 @@ void Tracker<S>::follow(const Field& field) {
   const Unit<S> span_s = seconds<S>(since_good);
   gate_.open(motion_, span_s, doubt_.contradicted());
   if (gate_.exceeds_limit()) {
-    const bool coasting = reason_ != Reason::kNone && state_ == TrackState::kDegraded &&
-                          reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
     const Reason why = missing ? Reason::kGap : gate_.why_exceeded();
-    lose(coasting ? Reason::kCoasted : why);
+    lose(coasts() ? Reason::kCoasted : why);
     return;
   }
-  const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
+  const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
     const bool no_field = field.status == FieldStatus::kMissing;
     coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted);
     return;
   }
-  const Observation<S> outcome =
+  const Observation<S> seen =
       observer_.observe(field.pixels, {predicted, gate_.believed_mm(), motion_.known});
-  if (outcome.contradiction) {
-    doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, field, predicted);
+  if (seen.contradiction) {
+    doubt(seen.trouble == Reason::kNone ? Reason::kJump : seen.trouble, field, predicted);
     return;
   }
-  if (!outcome.fitted) {
-    coast(outcome.trouble, predicted);
+  if (!seen.fitted) {
+    coast(seen.trouble, predicted);
     return;
   }
-  if (const Reason refused = gate(outcome, predicted, span_s); refused != Reason::kNone) {
+  if (const Reason refused = gate(seen, predicted, span_s); refused != Reason::kNone) {
     doubt(refused, field, predicted);
     return;
   }
-  accept(outcome, field, span_s);
+  motion_ = motion_between<S>(good_.pose, good_.tool, seen.pose, seen.tool, motion_, span_s);
+  accept(seen, field);
+}
+
+// Whether the last field already was not believed: what is lost then has been passed over too long.
+template <Scalar S>
+bool Tracker<S>::coasts() const {
+  return state_ == TrackState::kDegraded && reason_ != Reason::kNone &&
+         reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
 }
 
 template <Scalar S>
-Reason Tracker<S>::gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
+bool Tracker<S>::shows_old_picture(const Field& field) {
+  return old_pictures_.shows_old(field, model_->window_left_px, model_->window_top_px,
+                                 model_->window_right_px, model_->window_bottom_px);
+}
+
+template <Scalar S>
+Reason Tracker<S>::gate(const Observation<S>& seen, const SheetPose<S>& predicted,
                         Unit<S> span_s) const {
   const auto expected = find_tool_point<S>(*model_, predicted);
   if (!expected) {
     return Reason::kJump;
   }
-  return gate_.refuses(outcome.tool.local, outcome.deviation_mm, expected->local, tool_.local,
+  return gate_.refuses(seen.tool.local, seen.deviation_mm, expected->local, good_.tool.local,
                        span_s);
 }
 
+// Believes what the field shows. The motion is that from the field believed before to this one.
 template <Scalar S>
-void Tracker<S>::accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s) {
-  if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
-    motion_ = motion_between<S>(pose_, tool_, outcome.pose, outcome.tool, motion_, span_s);
-  }
-  pose_ = outcome.pose;
-  tool_ = outcome.tool;
-  gate_.close(outcome.deviation_mm, outcome.picture_deviation_mm);
-  residual_px_ = outcome.fit.rms_px;
+void Tracker<S>::accept(const Observation<S>& seen, const Field& field) {
+  good_ = seen;
+  judged_ = true;
+  gate_.close(seen.deviation_mm, seen.picture_deviation_mm);
   clock_.believe(field);
   doubt_.agree();
   old_pictures_.believe(rests<S>(motion_));
-  order_.believe(field, tool_.local);
-  measured_now_ = true;
-  const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
-  if (outcome.fit.used < 3) {
-    reason_ = Reason::kFewTubes;
-  } else {
-    reason_ = outcome.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
-  }
-  if (doubt_.lasts()) {
-    reason_ = doubt_.reason();
-  }
-  state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
+  order_.believe(field, seen.tool.local);
+  judge(seen);
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
-  shown_ = pose_;
-  tool_shown_ = tool_;
+  shown_ = {good_.pose, good_.tool};
   if (order_.wrong() && model_->margin_check) {
     lose(Reason::kFieldOrder);
   }
 }
 
+// How far a field that is believed can be relied on.
+template <Scalar S>
+void Tracker<S>::judge(const Observation<S>& seen) {
+  const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
+  if (doubt_.lasts()) {
+    reason_ = doubt_.reason();
+  } else if (seen.fit.used < 3) {
+    reason_ = Reason::kFewTubes;
+  } else {
+    reason_ = seen.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
+  }
+  state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
+}
+
+// Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
+template <Scalar S>
+void Tracker<S>::reanchor() {
+  if (!primary_.known() || primary_.is(good_.pose.anchor)) {
+    return;
+  }
+  const auto shift = model_->lattice.offset(good_.pose.anchor, primary_.address());
+  good_.pose.origin = good_.pose.origin + good_.pose.along(shift);
+  good_.pose.anchor = primary_.address();
+  good_.tool.local = good_.tool.local - shift;
+  order_.move_anchor(shift);
+}
+
+// A good picture refutes the prediction.
 template <Scalar S>
 void Tracker<S>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
   if (motion_.known) {
-    order_.look_aside(field, pose_, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
+    order_.look_aside(field, good_.pose, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
   }
   doubt_.raise(reason);
   if (doubt_.is_certainty() || !motion_.known) {
@@ -148,6 +185,7 @@ void Tracker<S>::doubt(Reason reason, const Field& field, const SheetPose<S>& pr
   coast(reason, predicted);
 }
 
+// Passes over a field: the prediction stands for it.
 template <Scalar S>
 void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted) {
   const auto tool = find_tool_point<S>(*model_, predicted);
@@ -161,31 +199,60 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted) {
   state_ = TrackState::kDegraded;
   reason_ = reason;
   observer_.clear_field();
-  shown_ = predicted;
-  tool_shown_ = *tool;
+  shown_ = {predicted, *tool};
   gate_.pass_over();
 }
 
+// Ends the track until a new start.
 template <Scalar S>
 void Tracker<S>::lose(Reason reason) {
   state_ = TrackState::kLost;
-  measured_now_ = false;
   reason_ = reason;
+  judged_ = false;
   primary_.forget();
   observer_.clear_field();
 }
 
-// Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
 template <Scalar S>
-void Tracker<S>::reanchor() {
-  if (!primary_.known() || primary_.is(pose_.anchor)) {
+void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const {
+  sighting = {};
+  tubes.clear();
+  sighting.time = field.mid_exposure;
+  sighting.state = state_;
+  sighting.reason = reason_;
+  sighting.field = field.number;
+  sighting.status = field.status;
+  sighting.judged = judged_;
+  if (judged_) {
+    sighting.residual_px_q16 = to_scaled(good_.fit.rms_px, 16);
+  }
+  report_tubes<S>(observer_.record(), primary_, sighting, tubes);
+  // After a picture that refuted the prediction nothing is said of the tool until two agree.
+  if (doubt_.lasts() || !knows_place()) {
     return;
   }
-  const auto shift = model_->lattice.offset(pose_.anchor, primary_.address());
-  pose_.origin = pose_.origin + pose_.along(shift);
-  pose_.anchor = primary_.address();
-  tool_.local = tool_.local - shift;
-  order_.move_anchor(shift);
+  report_axis<S>(*model_, shown_, motion_, sighting);
+  const NearestTube<S> nearest = find_nearest_tube<S>(*model_, shown_);
+  const Mm<S> margin = gate_.margin(nearest.to_edge_mm);
+  report_margin(margin, sighting);
+  // Four standard deviations from the rounding limit, or the address is not said.
+  const bool certain = margin >= from_scaled<Mm<S>>(4, 0) || !model_->margin_check;
+  if (certain && map_->state(nearest.address) != TubeState::kAbsent) {
+    report_tool<S>(*model_, shown_.pose, nearest, sighting);
+  }
+}
+
+template <Scalar S>
+void Tracker<S>::list_estimates(CandidateList<S>& estimates) const {
+  estimates.clear();
+  if (knows_place()) {
+    list_candidates<S>(*model_, *map_, shown_.pose, estimates);
+  }
+}
+
+template <Scalar S>
+bool Tracker<S>::locate(TubeAddress address, ImagePoint& pixel) const {
+  return knows_place() && locate_tube<S>(*model_, shown_.pose, address, pixel);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(Tracker)

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <optional>
 
 #include "core/base/field.h"
 #include "core/base/scalar.h"
@@ -10,6 +9,7 @@
 #include "core/tracking/doubt.h"
 #include "core/tracking/field_clock.h"
 #include "core/tracking/field_order_watch.h"
+#include "core/tracking/field_report.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
 #include "core/tracking/primary_tube.h"
@@ -17,19 +17,18 @@
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
 #include "core/tracking/tool_gate.h"
-#include "core/tracking/tool_point.h"
 #include "core/tracking/tracking_model.h"
 #include "core/tubesheet/sheet_map.h"
 
 namespace tubesight::core::tracking {
 
-/// Tubes that a field's output can tell of: the measured ones and recognised plugs.
-using TubeSightingList = StaticVector<TubeSighting, kMaxTubesInView + 64>;
-
 /// Follows the tubesheet from field to field and names the tube above the guidetube [Fallon ch. 6].
 ///
-/// An address is never guessed: it carries over by rounding to the lattice, and only while the
-/// region that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
+/// Each field is told by the clock, predicted by the motion, looked at by the observer, let in by
+/// the gate, and then believed, doubted or passed over (coasted) until the track is lost. An
+/// address is never guessed: it carries over by rounding to the lattice, and only while the region
+/// that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
+///
 /// One thread; no heap, no clock; the same inputs leave the same bytes on every machine in fixed
 /// point. `model` and `map` outlive the tracker and do not change.
 template <Scalar S>
@@ -39,7 +38,7 @@ class Tracker {
       : model_(&model), map_(&map), gate_(model), order_(model), observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
-  void request_start(const StartClickList& clicks);
+  void request_start(const StartClickList& clicks) { clicks_ = clicks; }
 
   /// Processes one field. Costs some 19,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
@@ -56,47 +55,46 @@ class Tracker {
 
   /// How the sheet stood in the last step(): as fitted, or as predicted while coasting. Valid while
   /// tracking or degraded.
-  [[nodiscard]] const SheetPose<S>& shown() const { return shown_; }
+  [[nodiscard]] const SheetPose<S>& shown() const { return shown_.pose; }
 
  private:
-  void start(const Field& field);
-  [[nodiscard]] bool confirms_clicks(const Observation<S>& outcome) const;
+  [[nodiscard]] bool knows_place() const {
+    return state_ == TrackState::kTracking || state_ == TrackState::kDegraded;
+  }
+  [[nodiscard]] bool coasts() const;
+  void start(const Field& field, const StartClickList& clicks);
   void follow(const Field& field);
   void follow_unchecked(const Field& field);
-  [[nodiscard]] Reason gate(const Observation<S>& outcome, const SheetPose<S>& predicted,
-                            Unit<S> span_s) const;
   [[nodiscard]] bool shows_old_picture(const Field& field);
-  void accept(const Observation<S>& outcome, const Field& field, Unit<S> span_s);
+  [[nodiscard]] Reason gate(const Observation<S>& seen, const SheetPose<S>& predicted,
+                            Unit<S> span_s) const;
+  void accept(const Observation<S>& seen, const Field& field);
+  void judge(const Observation<S>& seen);
   void reanchor();
   void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted);
   void coast(Reason reason, const SheetPose<S>& predicted);
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
-  void report_tool(Sighting& sighting) const;
 
   const TrackingModel<S>* model_;
   const tubesheet::SheetMap* map_;
 
   TrackState state_ = TrackState::kWaiting;
   Reason reason_ = Reason::kNoStart;
+  std::optional<StartClickList> clicks_;  ///< of a start with the next field
   StartRefusal start_refusal_ = StartRefusal::kNone;
-  bool start_requested_ = false;
-  StartClickList clicks_;
 
-  SheetPose<S> pose_{};   ///< of the last good field
-  SheetPose<S> shown_{};  ///< of this field: fitted, or predicted while coasting
-  ToolPoint<S> tool_{};   ///< of pose_
-  ToolPoint<S> tool_shown_{};
-  Px<S> residual_px_{};  ///< of the tube-ends used in the last good field
-  ToolGate<S> gate_;
-  Motion<S> motion_{};
+  Observation<S> good_{};  ///< of the last field that was believed
+  Motion<S> motion_{};     ///< between the last two of those
+  Place<S> shown_{};       ///< of this field: fitted, or predicted while coasting
+  bool judged_ = false;    ///< this field was believed
+  PrimaryTube primary_{};
+
   FieldClock clock_{};
+  ToolGate<S> gate_;
   Doubt doubt_{};
   OldPictureWatch old_pictures_{};
   FieldOrderWatch<S> order_;
-  bool measured_now_ = false;
-  PrimaryTube primary_{};
-
   SheetObserver<S> observer_;
 };
 

@@ -9,20 +9,21 @@ namespace tubesight::core::tracking {
 template <Scalar S>
 void Tracker<S>::follow_unchecked(const Field& field) {
   const Unit<S> span_s = seconds<S>(clock_.stamped_since_good(field));
-  const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
+  const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood) {
     coast(Reason::kDamagedField, predicted);
     return;
   }
   const Mm<S> half_step =
       times(model_->lattice.parameters().shortest_step, from_scaled<Mm<S>>(1, 1));
-  const Observation<S> outcome =
+  const Observation<S> seen =
       observer_.observe(field.pixels, {predicted, half_step, motion_.known});
-  if (!outcome.fitted) {
-    coast(outcome.trouble, predicted);
+  if (!seen.fitted) {
+    coast(seen.trouble, predicted);
     return;
   }
-  accept(outcome, field, span_s);
+  motion_ = motion_between<S>(good_.pose, good_.tool, seen.pose, seen.tool, motion_, span_s);
+  accept(seen, field);
 }
 
 #define TUBESIGHT_INSTANTIATE(S) template void Tracker<S>::follow_unchecked(const Field&);
