@@ -1,13 +1,12 @@
 #include "core/tracking/tracker.h"
 
-#include "core/base/instantiate.h"
 #include "core/base/overflow.h"
 #include "core/tracking/confirmed_start.h"
 
 namespace tubesight::core::tracking {
 
-template <Scalar S>
-void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
   judged_ = false;
   observer_.clear_field();
   static_cast<void>(take_overflow_flag());
@@ -28,8 +27,8 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
   clock_.see(field);
 }
 
-template <Scalar S>
-void Tracker<S>::start(const Field& field, const StartClickList& clicks) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks) {
   state_ = TrackState::kWaiting;
   reason_ = Reason::kStartRefused;
   primary_.forget();
@@ -52,13 +51,13 @@ void Tracker<S>::start(const Field& field, const StartClickList& clicks) {
   accept(seen, field);
 }
 
-template <Scalar S>
-void Tracker<S>::follow(const Field& field) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::follow(const Field& field) {
   if (const Reason refused = clock_.refuses(field); refused != Reason::kNone) {
     lose(refused);
     return;
   }
-  if (!model_->margin_check) {
+  if constexpr (!Margin::kChecked) {
     follow_unchecked(field);
     return;
   }
@@ -102,21 +101,21 @@ void Tracker<S>::follow(const Field& field) {
 }
 
 // Whether the last field already was not believed: what is lost then has been passed over too long.
-template <Scalar S>
-bool Tracker<S>::coasts() const {
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::coasts() const {
   return state_ == TrackState::kDegraded && reason_ != Reason::kNone &&
          reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
 }
 
-template <Scalar S>
-bool Tracker<S>::shows_old_picture(const Field& field) {
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::shows_old_picture(const Field& field) {
   return old_pictures_.shows_old(field, model_->window_left_px, model_->window_top_px,
                                  model_->window_right_px, model_->window_bottom_px);
 }
 
-template <Scalar S>
-Reason Tracker<S>::gate(const Observation<S>& seen, const SheetPose<S>& predicted,
-                        Unit<S> span_s) const {
+template <Scalar S, typename Margin>
+Reason Tracker<S, Margin>::gate(const Observation<S>& seen, const SheetPose<S>& predicted,
+                                Unit<S> span_s) const {
   const auto expected = find_tool_point<S>(*model_, predicted);
   if (!expected) {
     return Reason::kJump;
@@ -126,8 +125,8 @@ Reason Tracker<S>::gate(const Observation<S>& seen, const SheetPose<S>& predicte
 }
 
 // Believes what the field shows. The motion is that from the field believed before to this one.
-template <Scalar S>
-void Tracker<S>::accept(const Observation<S>& seen, const Field& field) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) {
   good_ = seen;
   judged_ = true;
   gate_.close(seen.deviation_mm, seen.picture_deviation_mm);
@@ -139,14 +138,14 @@ void Tracker<S>::accept(const Observation<S>& seen, const Field& field) {
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
   shown_ = {good_.pose, good_.tool};
-  if (order_.wrong() && model_->margin_check) {
+  if (Margin::kChecked && order_.wrong()) {
     lose(Reason::kFieldOrder);
   }
 }
 
 // How far a field that is believed can be relied on.
-template <Scalar S>
-void Tracker<S>::judge(const Observation<S>& seen) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::judge(const Observation<S>& seen) {
   const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
   if (doubt_.lasts()) {
     reason_ = doubt_.reason();
@@ -159,8 +158,8 @@ void Tracker<S>::judge(const Observation<S>& seen) {
 }
 
 // Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
-template <Scalar S>
-void Tracker<S>::reanchor() {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::reanchor() {
   if (!primary_.known() || primary_.is(good_.pose.anchor)) {
     return;
   }
@@ -172,8 +171,8 @@ void Tracker<S>::reanchor() {
 }
 
 // A good picture refutes the prediction.
-template <Scalar S>
-void Tracker<S>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
   if (motion_.known) {
     order_.look_aside(field, good_.pose, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
   }
@@ -186,8 +185,8 @@ void Tracker<S>::doubt(Reason reason, const Field& field, const SheetPose<S>& pr
 }
 
 // Passes over a field: the prediction stands for it.
-template <Scalar S>
-void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::coast(Reason reason, const SheetPose<S>& predicted) {
   const auto tool = find_tool_point<S>(*model_, predicted);
   if (!tool) {
     lose(Reason::kJump);
@@ -204,8 +203,8 @@ void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted) {
 }
 
 // Ends the track until a new start.
-template <Scalar S>
-void Tracker<S>::lose(Reason reason) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::lose(Reason reason) {
   state_ = TrackState::kLost;
   reason_ = reason;
   judged_ = false;
@@ -213,8 +212,9 @@ void Tracker<S>::lose(Reason reason) {
   observer_.clear_field();
 }
 
-template <Scalar S>
-void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::report(const Field& field, Sighting& sighting,
+                                TubeSightingList& tubes) const {
   sighting = {};
   tubes.clear();
   sighting.time = field.mid_exposure;
@@ -236,25 +236,25 @@ void Tracker<S>::report(const Field& field, Sighting& sighting, TubeSightingList
   const Mm<S> margin = gate_.margin(nearest.to_edge_mm);
   report_margin(margin, sighting);
   // Four standard deviations from the rounding limit, or the address is not said.
-  const bool certain = margin >= from_scaled<Mm<S>>(4, 0) || !model_->margin_check;
+  const bool certain = !Margin::kChecked || margin >= from_scaled<Mm<S>>(4, 0);
   if (certain && map_->state(nearest.address) != TubeState::kAbsent) {
     report_tool<S>(*model_, shown_.pose, nearest, sighting);
   }
 }
 
-template <Scalar S>
-void Tracker<S>::list_estimates(CandidateList<S>& estimates) const {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::list_estimates(CandidateList<S>& estimates) const {
   estimates.clear();
   if (knows_place()) {
     list_candidates<S>(*model_, *map_, shown_.pose, estimates);
   }
 }
 
-template <Scalar S>
-bool Tracker<S>::locate(TubeAddress address, ImagePoint& pixel) const {
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::locate(TubeAddress address, ImagePoint& pixel) const {
   return knows_place() && locate_tube<S>(*model_, shown_.pose, address, pixel);
 }
 
-TUBESIGHT_INSTANTIATE_CLASS(Tracker)
+TUBESIGHT_INSTANTIATE_POLICY_CLASS(Tracker)
 
 }  // namespace tubesight::core::tracking

@@ -10,6 +10,7 @@
 #include "core/tracking/field_clock.h"
 #include "core/tracking/field_order_watch.h"
 #include "core/tracking/field_report.h"
+#include "core/tracking/margin_policy.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
 #include "core/tracking/primary_tube.h"
@@ -30,8 +31,9 @@ namespace tubesight::core::tracking {
 /// that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
 ///
 /// One thread; no heap, no clock; the same inputs leave the same bytes on every machine in fixed
-/// point. `model` and `map` outlive the tracker and do not change.
-template <Scalar S>
+/// point. `model` and `map` outlive the tracker and do not change. `Margin` is MarginChecked, but
+/// in the campaign's self-proof.
+template <Scalar S, typename Margin = MarginChecked>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
@@ -64,7 +66,7 @@ class Tracker {
   [[nodiscard]] bool coasts() const;
   void start(const Field& field, const StartClickList& clicks);
   void follow(const Field& field);
-  void follow_unchecked(const Field& field);
+  void follow_unchecked(const Field& field);  ///< is defined in the self-proof alone
   [[nodiscard]] bool shows_old_picture(const Field& field);
   [[nodiscard]] Reason gate(const Observation<S>& seen, const SheetPose<S>& predicted,
                             Unit<S> span_s) const;

@@ -1,4 +1,3 @@
-#include "core/base/instantiate.h"
 #include "core/tracking/tracker.h"
 
 // The tracker without its margin check, which proves that the campaign finds wrong tubes.
@@ -6,8 +5,8 @@ namespace tubesight::core::tracking {
 
 // Believes every picture that can be fitted to a lattice, wherever the tool would have gone: what
 // follow() does without reach, limit and gate.
-template <Scalar S>
-void Tracker<S>::follow_unchecked(const Field& field) {
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::follow_unchecked(const Field& field) {
   const Unit<S> span_s = seconds<S>(clock_.stamped_since_good(field));
   const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood) {
@@ -26,8 +25,6 @@ void Tracker<S>::follow_unchecked(const Field& field) {
   accept(seen, field);
 }
 
-#define TUBESIGHT_INSTANTIATE(S) template void Tracker<S>::follow_unchecked(const Field&);
-TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
-#undef TUBESIGHT_INSTANTIATE
+template void Tracker<FixedPoint, MarginUnchecked>::follow_unchecked(const Field&);
 
 }  // namespace tubesight::core::tracking
