@@ -1,5 +1,6 @@
 #include "core/tracking/confirmed_start.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
@@ -42,7 +43,7 @@ StartRefusal find_confirmed_start(const TrackingModel<S>& model, const FieldView
   if (refusal != StartRefusal::kNone) {
     return refusal;
   }
-  const Mm<S> rough = from_scaled<Mm<S>>(2, 0);  // how far three bisected tube-ends may mislead
+  const Mm<S> rough = constant<Mm<S>>(2.0);  // how far three bisected tube-ends may mislead
   for (int round = 1; round <= kRounds; ++round) {
     seen = observer.observe(field, {seen.pose, rough, false, round == kRounds});
     if (!seen.fitted) {

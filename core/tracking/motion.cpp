@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/plane_length.h"
 
@@ -16,7 +17,7 @@ Unit<S> seconds(FieldTime span) {
 
 template <Scalar S>
 bool rests(const Motion<S>& motion) {
-  return motion.known && plane_length(motion.velocity_mm_s) < from_scaled<Mm<S>>(3, 0);
+  return motion.known && plane_length(motion.velocity_mm_s) < constant<Mm<S>>(3.0);
 }
 
 template <Scalar S>
@@ -48,20 +49,20 @@ SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
 
 template <Scalar S>
 Mm<S> address_limit_mm(const TrackingModel<S>& model) {
-  return times(model.lattice.parameters().shortest_step, from_scaled<Mm<S>>(410, 10));
+  return times(model.lattice.parameters().shortest_step, constant<Mm<S>>(0.4));
 }
 
 template <Scalar S>
 Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s,
                    Mm<S> deviation_mm) {
   using M = Mm<S>;
-  const M milliseconds = times(from_scaled<M>(1000, 0), span_s);
+  const M milliseconds = times(constant<M>(1000.0), span_s);
   const M farthest = times(model.max_speed_mm_s, span_s);
-  const M interval_ms = motion.known ? times(from_scaled<M>(1000, 0), motion.interval_s) : M{};
+  const M interval_ms = motion.known ? times(constant<M>(1000.0), motion.interval_s) : M{};
   // mm = m/s^2 s ms. A change of speed by 2 m/s is beyond any limit and still within the format.
   const M change =
-      std::min(times(model.max_acceleration_m_s2, convert<M>(span_s)), from_scaled<M>(2, 0));
-  const M grown = times(change, times(milliseconds + interval_ms, from_scaled<M>(1, 1)));
+      std::min(times(model.max_acceleration_m_s2, convert<M>(span_s)), constant<M>(2.0));
+  const M grown = times(change, times(milliseconds + interval_ms, constant<M>(0.5)));
   if (motion.known) {
     return std::min(grown, farthest + farthest);
   }
@@ -69,11 +70,11 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   // the step at least.
   const M step = model.lattice.parameters().shortest_step;
   const M three = deviation_mm + deviation_mm + deviation_mm;
-  const M slack = std::max(times(step, from_scaled<M>(1, 4)), three + three);
+  const M slack = std::max(times(step, constant<M>(1.0 / 16.0)), three + three);
   const M unique = step - farthest - slack;
   // A micrometre under the limit: floating point rounds the sum that is compared with it.
-  const M allowed = address_limit_mm<S>(model) - three - from_scaled<M>(1, 10);
-  const M widest = std::min(times(step, from_scaled<M>(3, 3)), allowed);
+  const M allowed = address_limit_mm<S>(model) - three - constant<M>(0.001);
+  const M widest = std::min(times(step, constant<M>(0.375)), allowed);
   return std::min(farthest, std::max(std::min(widest, unique), grown));
 }
 
@@ -84,11 +85,11 @@ Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> spa
   if (!motion.known) {
     return {};
   }
-  const M most = from_scaled<M>(32, 0);
-  const M ratio = motion.interval_s < times(span_s, from_scaled<Unit<S>>(1, 5))
+  const M most = constant<M>(32.0);
+  const M ratio = motion.interval_s < times(span_s, constant<Unit<S>>(1.0 / 32.0))
                       ? most
                       : quotient<M>(convert<M>(span_s), convert<M>(motion.interval_s));
-  const M root_two = from_scaled<M>(1449, 10);
+  const M root_two = constant<M>(1.415);  // rounded up
   return times(times(std::min(place_mm, most), root_two), std::min(ratio, most));
 }
 
@@ -98,7 +99,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
                          const Motion<S>& last, Unit<S> span_s) {
   using M = Mm<S>;
   Motion<S> motion;
-  if (span_s < from_scaled<Unit<S>>(1, 10)) {  // under a millisecond no rate can be told
+  if (span_s < constant<Unit<S>>(0.001)) {  // under a millisecond no rate can be told
     return last;
   }
   motion.known = true;
@@ -111,7 +112,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   // A small turn w takes each axis e to e + w x e: w = sum of e x e' / 2.
   const auto turn = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
                     cross<M>(before.normal, after.normal);
-  const M half = from_scaled<M>(1, 1);
+  const M half = constant<M>(0.5);
   const auto smoothed = [&](M turned, M rate_before) {
     const M now = times(rate(times(turned, half)), half);
     return last.known ? now + times(rate_before, half) : now;

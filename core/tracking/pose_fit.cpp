@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/projection.h"
 
@@ -51,8 +52,8 @@ void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, con
   const auto& scale = model.camera.parameters().scale_px;
   const M su = quotient<M>(scale.x, m.depth);  // px per mm across the line of sight
   const M sv = quotient<M>(scale.y, m.depth);
-  const M turn_u = times(su, from_scaled<M>(1, 7));
-  const M turn_v = times(sv, from_scaled<M>(1, 7));
+  const M turn_u = times(su, constant<M>(1.0 / 128.0));
+  const M turn_v = times(sv, constant<M>(1.0 / 128.0));
   const Vector3<M>& q = m.arm;
   const Ratio<S> x = m.plane.x;
   const Ratio<S> y = m.plane.y;
@@ -73,7 +74,7 @@ void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, con
 // it does not matter how far.
 template <typename M>
 M squared_distance(M u, M v) {
-  const M limit = from_scaled<M>(30, 0);
+  const M limit = constant<M>(30.0);
   const M a = std::min(absolute(u), limit);
   const M b = std::min(absolute(v), limit);
   return narrow<M>(product(a, a) + product(b, b));
@@ -90,7 +91,7 @@ void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const S
     // In the unknowns' 1/128 rad.
     const PoseVector<S> row{
         convert<M>(lever.x), convert<M>(lever.y), convert<M>(lever.z), M{}, M{}, M{}};
-    const M lean_scaled = times(lean, from_scaled<M>(128, 0));
+    const M lean_scaled = times(lean, constant<M>(128.0));
     equations.add(row, -lean_scaled, prior.lean_weight);
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -114,8 +115,8 @@ void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const S
 // step's size, below 0.1 um and 1e-6 rad.
 template <Scalar S>
 bool settled(const PoseVector<S>& delta) {
-  const Mm<S> small_turn = from_scaled<Mm<S>>(1, 3);  // 0.001 rad
-  const Mm<S> small_shift = from_scaled<Mm<S>>(1, 3);
+  const Mm<S> small_turn = constant<Mm<S>>(0.125);  // 0.001 rad, in 1/128
+  const Mm<S> small_shift = constant<Mm<S>>(0.125);
   for (std::size_t i = 0; i < 3; ++i) {
     if (absolute(delta[i]) > small_turn || absolute(delta[i + 3]) > small_shift) {
       return false;
@@ -141,16 +142,16 @@ Agreement<S> mark_outliers(const TrackingModel<S>& model, const SheetPose<S>& po
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     const auto index = static_cast<std::size_t>(i);
     const auto m = modelled<S>(model, pose, tubes[i].local, measured[index]);
-    off[index] = m.valid ? squared_distance(m.u, m.v) : from_scaled<M>(1800, 0);
+    off[index] = m.valid ? squared_distance(m.u, m.v) : constant<M>(1800.0);
   }
   std::array<M, kMaxTubesInView> sorted = off;
   auto* const middle = sorted.data() + tubes.size() / 2;
   std::nth_element(sorted.data(), middle, sorted.data() + tubes.size());
   // 4 medians of a Rayleigh distribution are 4.7 sigma; below 0.5 px nothing is an outlier.
-  const M median = std::min(*middle, from_scaled<M>(100, 0));
-  const M limit = std::max(times(median, from_scaled<M>(16, 0)), from_scaled<M>(1, 2));
+  const M median = std::min(*middle, constant<M>(100.0));
+  const M limit = std::max(times(median, constant<M>(16.0)), constant<M>(0.25));
   Agreement<S> agreement;
-  const M per_kilo = from_scaled<M>(1, 10);
+  const M per_kilo = constant<M>(1.0 / 1024.0);
   auto sum = product(M{}, M{});
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     const M d2 = off[static_cast<std::size_t>(i)];
@@ -200,7 +201,7 @@ PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
       return fit;
     }
     const PoseVector<S> delta = equations.solve();
-    const M per_unknown = from_scaled<M>(1, 7);
+    const M per_unknown = constant<M>(1.0 / 128.0);
     move<S>(
         pose,
         {times(delta[0], per_unknown), times(delta[1], per_unknown), times(delta[2], per_unknown)},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/projection.h"
 
@@ -93,7 +94,7 @@ std::optional<RimOutline<S>> project_rim(const TrackingModel<S>& model,
   const Unit<S> share =
       from_scaled<Unit<S>>(((std::int64_t{1} << 30) + kRimPoints / 2) / kRimPoints, 30);
   rim.middle = {times(sum.x, share), times(sum.y, share)};
-  const P half = from_scaled<P>(1, 1);
+  const P half = constant<P>(0.5);
   rim.half_extent = {times(most.x - least.x, half), times(most.y - least.y, half)};
   return rim;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
@@ -12,7 +13,7 @@ namespace {
 // How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
 template <typename M>
 M bisected_mm() {
-  return from_scaled<M>(512, 10);
+  return constant<M>(0.5);
 }
 
 // Lean 0.5 degrees always; turn 0.1 degrees and height 0.5 mm from field to field, once a motion
@@ -20,10 +21,10 @@ M bisected_mm() {
 template <Scalar S>
 PosePrior<S> prior_of(const Expectation<S>& expected) {
   PosePrior<S> prior;
-  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
+  prior.lean_weight = constant<Mm<S>>(0.032);
   if (expected.from_motion) {
-    prior.turn_weight = from_scaled<Mm<S>>(819, 10);
-    prior.height_weight = from_scaled<Mm<S>>(164, 10);
+    prior.turn_weight = constant<Mm<S>>(0.8);
+    prior.height_weight = constant<Mm<S>>(0.16);
   }
   return prior;
 }
@@ -82,7 +83,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
   seen.tool = *tool;
   // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
   // of a rim point's fit is known to some 0.125 px then.
-  const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), from_scaled<M>(8, 0)));
+  const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));
   seen.picture_deviation_mm = times(tool_point_deviation<S>(seen.pose, *tool, equations_), excess);
   // Independent of each other: sqrt(picture^2 + systematic^2).
   seen.deviation_mm =

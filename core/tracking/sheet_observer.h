@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/base/constant.h"
 #include "core/base/image_view.h"
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
@@ -42,7 +43,7 @@ struct Observation {
 /// What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
 template <typename M>
 [[nodiscard]] M systematic_deviation_mm() {
-  return from_scaled<M>(102, 10);
+  return constant<M>(0.1);
 }
 
 /// Looks at fields: light, tube-ends where they are expected, pose, tool point, and how well all

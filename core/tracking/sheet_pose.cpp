@@ -1,5 +1,6 @@
 #include "core/tracking/sheet_pose.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::tracking {
@@ -14,7 +15,7 @@ Vector3<U> scaled(const Vector3<U>& v, U factor) {
 template <typename U>
 Vector3<U> normalized(const Vector3<U>& v) {
   const U length2 = narrow<U>(dot(v, v));
-  const U factor = U(1) + (from_scaled<U>(1, 1) - times(length2, from_scaled<U>(1, 1)));
+  const U factor = U(1) + (constant<U>(0.5) - times(length2, constant<U>(0.5)));
   return scaled(v, factor);
 }
 
@@ -23,7 +24,7 @@ template <typename U, typename M>
 Vector3<U> turned(const Vector3<U>& v, const Vector3<M>& turn) {
   const Vector3<U> once = cross<U>(turn, v);
   const Vector3<U> twice = cross<U>(turn, once);
-  return v + once + scaled(twice, from_scaled<U>(1, 1));
+  return v + once + scaled(twice, constant<U>(0.5));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/edges/dark_region.h"
 #include "core/tracking/projection.h"
@@ -96,7 +97,7 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
   M across{};
   M size{};
   // In units of 8 mm: pitches of up to 300 mm apart keep their squares in range.
-  const M scale = from_scaled<M>(1, 3);
+  const M scale = constant<M>(0.125);
   for (const Anchor<S>& anchor : anchors) {
     const auto seen = anchor.seen - fit.middle_seen;
     const auto local = anchor.local - fit.middle_local;
@@ -106,7 +107,7 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
     across += narrow<M>(product(x, seen.y) - product(y, seen.x));
     size += narrow<M>(product(x, x) + product(y, y));
   }
-  if (size < from_scaled<M>(1, 4)) {
+  if (size < constant<M>(1.0 / 16.0)) {
     return false;
   }
   const M a = quotient<M>(along, size);  // per 8 mm
@@ -125,7 +126,7 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
   }
   fit.a = convert<Unit<S>>(times(a, scale));
   fit.b = convert<Unit<S>>(times(b, scale));
-  return times(error, from_scaled<M>(64, 0)) < extent;
+  return times(error, constant<M>(64.0)) < extent;
 }
 
 // A level sheet whose picture on the virtual plane is the similarity.
@@ -135,13 +136,13 @@ StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit,
   using U = Unit<S>;
   using M = Mm<S>;
   // Widened by 32: elements are around 1/200 per mm.
-  const M a = times(convert<M>(fit.a), from_scaled<M>(32, 0));
-  const M b = times(convert<M>(fit.b), from_scaled<M>(32, 0));
+  const M a = times(convert<M>(fit.a), constant<M>(32.0));
+  const M b = times(convert<M>(fit.b), constant<M>(32.0));
   const M length = square_root(times(a, a) + times(b, b));
-  if (length < from_scaled<M>(1, 5)) {
+  if (length < constant<M>(1.0 / 32.0)) {
     return StartRefusal::kHeight;  // over 1000 mm away
   }
-  const M depth = quotient<M>(from_scaled<M>(32, 0), length);
+  const M depth = quotient<M>(constant<M>(32.0), length);
   const U cosine = quotient<U>(a, length);
   const U sine = quotient<U>(b, length);
   const auto& ex = model.virtual_plane.x_axis();
@@ -165,8 +166,7 @@ StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit,
   pose.origin = pose.origin - middle;
   const auto tool = find_tool_point<S>(model, pose);
   // Docked tips stand in the tube by a few mm at most; nobody works 250 mm below the sheet.
-  if (!tool || tool->height_mm < from_scaled<M>(-15, 0) ||
-      tool->height_mm > from_scaled<M>(250, 0)) {
+  if (!tool || tool->height_mm < constant<M>(-15.0) || tool->height_mm > constant<M>(250.0)) {
     return StartRefusal::kHeight;
   }
   return StartRefusal::kNone;

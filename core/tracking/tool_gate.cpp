@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/sheet_observer.h"
@@ -53,7 +54,7 @@ Reason ToolGate<S>::refuses(const Vector2<Mm<S>>& seen, Mm<S> deviation_mm,
   // |seen - last| > 1.25 v dt + 3 sigma. A quarter above the limit: the robot's own control may
   // overshoot, the box's noise adds to it.
   const M farthest = times(model_->max_speed_mm_s, span_s);
-  if (plane_length(seen - last) > farthest + times(farthest, from_scaled<M>(1, 2)) + noise) {
+  if (plane_length(seen - last) > farthest + times(farthest, constant<M>(0.25)) + noise) {
     return Reason::kSpeed;
   }
   return Reason::kNone;

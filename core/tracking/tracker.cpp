@@ -1,5 +1,6 @@
 #include "core/tracking/tracker.h"
 
+#include "core/base/constant.h"
 #include "core/base/overflow.h"
 #include "core/tracking/confirmed_start.h"
 
@@ -146,7 +147,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
 // How far a field that is believed can be relied on.
 template <Scalar S, typename Margin>
 void Tracker<S, Margin>::judge(const Observation<S>& seen) {
-  const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
+  const Mm<S> doubtful = constant<Mm<S>>(0.75);  // an offset of 2.5 mm means little
   if (doubt_.lasts()) {
     reason_ = doubt_.reason();
   } else if (seen.fit.used < 3) {
@@ -236,7 +237,7 @@ void Tracker<S, Margin>::report(const Field& field, Sighting& sighting,
   const Mm<S> margin = gate_.margin(nearest.to_edge_mm);
   report_margin(margin, sighting);
   // Four standard deviations from the rounding limit, or the address is not said.
-  const bool certain = !Margin::kChecked || margin >= from_scaled<Mm<S>>(4, 0);
+  const bool certain = !Margin::kChecked || margin >= constant<Mm<S>>(4.0);
   if (certain && map_->state(nearest.address) != TubeState::kAbsent) {
     report_tool<S>(*model_, shown_.pose, nearest, sighting);
   }

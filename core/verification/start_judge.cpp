@@ -1,5 +1,6 @@
 #include "core/verification/start_judge.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
@@ -83,7 +84,7 @@ bool StartJudge<S>::has_moved(const tracking::SheetPose<S>& pose) const {
   const Mm<S> radius_px = times(model_->bore_radius_mm, px_per_mm);
   const Vector2<Mm<S>> shift{convert<Mm<S>>(now->x - before->x),
                              convert<Mm<S>>(now->y - before->y)};
-  return tracking::plane_length(shift) > times(radius_px, from_scaled<Mm<S>>(1, 3));
+  return tracking::plane_length(shift) > times(radius_px, constant<Mm<S>>(0.125));
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(StartJudge)
