@@ -20,6 +20,8 @@ bool rests(const Motion<S>& motion) {
   return motion.known && plane_length(motion.velocity_mm_s) < constant<Mm<S>>(3.0);
 }
 
+// Each rate times the span: axes turned by w dt, the tool point moved by v dt over the sheet and
+// its height by its own rate.
 template <Scalar S>
 SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
                      const ToolPoint<S>& tool, const Motion<S>& motion, Unit<S> span_s) {
@@ -52,6 +54,7 @@ Mm<S> address_limit_mm(const TrackingModel<S>& model) {
   return times(model.lattice.parameters().shortest_step, constant<Mm<S>>(0.4));
 }
 
+// a span (span + interval) / 2, and at most twice the greatest speed's way.
 template <Scalar S>
 Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s,
                    Mm<S> deviation_mm) {
@@ -109,7 +112,8 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   const auto moved = tool_after.local - tool_before.local;
   motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
   motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
-  // A small turn w takes each axis e to e + w x e: w = sum of e x e' / 2.
+  // A small turn w takes each axis e to e' = e + w x e. Over three axes at right angles the sum of
+  // e x e' = w - e (e . w) is 3 w - w, so w is half of it.
   const auto turn = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
                     cross<M>(before.normal, after.normal);
   const M half = constant<M>(0.5);

@@ -44,7 +44,17 @@ Modelled<S> modelled(const TrackingModel<S>& model, const SheetPose<S>& pose,
   return m;
 }
 
-// The derivatives of a centre's image by the unknowns: d(P_x / P_z) for dP = turn x arm + shift.
+// The derivatives of a centre's image by the unknowns. With P = origin + q, x = P_x / P_z,
+// y = P_y / P_z and the step dP = w x q + t,
+//
+//   du = s_u / P_z (dP_x - x dP_z),   dP_x = w_y q_z - w_z q_y + t_x,
+//   dv = s_v / P_z (dP_y - y dP_z),   dP_y = w_z q_x - w_x q_z + t_y,
+//                                     dP_z = w_x q_y - w_y q_x + t_z,
+//
+// so that the rows, in the order w_x w_y w_z t_x t_y t_z and w in 1/128 rad, are
+//
+//   s_u / P_z [ -x q_y          q_z + x q_x   -q_y   1   0   -x ]
+//   s_v / P_z [ -q_z - y q_y    y q_x          q_x   0   1   -y ].
 template <Scalar S>
 void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, const Modelled<S>& m,
               NormalEquations<S>& equations) {
@@ -81,6 +91,9 @@ M squared_distance(M u, M v) {
 }
 
 // What is known without the picture; `moved` is the move since the prediction.
+//
+// Lean: a turn w takes the normal n to n + w x n, whose part along an axis e of the virtual plane
+// shall be 0: (n x e) . w = -n . e. Turn: w = -moved. Height: n . t = -n . moved.
 template <Scalar S>
 void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const SheetPose<S>& pose,
                const PoseVector<S>& moved, NormalEquations<S>& equations) {
@@ -183,6 +196,8 @@ PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     measured[static_cast<std::size_t>(i)] = model.camera.to_plane(tubes[i].center_px);
   }
+  // Gauss-Newton: each step solves (sum J^T W J) delta = sum J^T W r, r measured minus modelled and
+  // W the information of the measured centre.
   PoseVector<S> moved{};
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) {

@@ -33,6 +33,8 @@ std::optional<Vector2<Px<S>>> project(const TrackingModel<S>& model, const Sheet
   return to_pixel<S>(model, pose.origin + pose.along(local));
 }
 
+// The ray z (x, y, 1) meets the plane n . (P - origin) = 0 at the depth z = n . origin / n . (x, y,
+// 1).
 template <Scalar S>
 std::optional<Vector2<Mm<S>>> to_sheet(const TrackingModel<S>& model, const SheetPose<S>& pose,
                                        const Vector2<Px<S>>& pixel) {

@@ -28,11 +28,13 @@ constexpr auto kCosineQ30 = [] {
 static_assert(kCosineQ30[0] == 1073741824 && kCosineQ30[kRimPoints / 4] == 0 &&
               kCosineQ30[kRimPoints / 2] == -1073741824);
 
-// Half of 1 / sin(2 pi / kRimPoints) in 1/2^16: from a chord over two steps to the tangent.
+// From a chord over two steps h = 2 pi / kRimPoints to the tangent: on an ellipse
+// p(t) = c + a cos t + b sin t it is p(t + h) - p(t - h) = 2 sin(h) p'(t). 1 / (2 sin h) in 1/2^16.
 constexpr std::int64_t kTangentQ16 = (std::int64_t{1} << 45) / kCosineQ30[kRimPoints / 4 - 1];
 
 }  // namespace
 
+// r (cos t x_axis + sin t y_axis) at t = 2 pi k / kRimPoints.
 template <Scalar S>
 RimSpokes<S> make_rim_spokes(const SheetPose<S>& pose, Mm<S> radius_mm) {
   RimSpokes<S> spokes;

@@ -11,7 +11,8 @@ Vector3<U> scaled(const Vector3<U>& v, U factor) {
   return {times(v.x, factor), times(v.y, factor), times(v.z, factor)};
 }
 
-// A vector of nearly unit length made one: one step of Newton's method for 1 / sqrt(s) at s = 1.
+// A vector of nearly unit length made one: one step of Newton's method for 1 / sqrt(s) at s = 1:
+// 1 + (1 - s) / 2.
 template <typename U>
 Vector3<U> normalized(const Vector3<U>& v) {
   const U length2 = narrow<U>(dot(v, v));

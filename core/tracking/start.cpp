@@ -86,7 +86,11 @@ Vector2<Mm<S>> mean(const AnchorList<S>& anchors, Vector2<Mm<S>> Anchor<S>::*mem
   return sum;
 }
 
-// Least squares for the similarity; false when the clicks' addresses contradict it by more than an
+// Least squares for the similarity s_i = [a -b; b a] l_i, both from their middles:
+//
+//   a = sum l . s / sum l . l,   b = sum (l_x s_y - l_y s_x) / sum l . l;
+//
+// false when the clicks' addresses contradict it by more than an
 // eighth of the distances: lean of a degree and rough bisection stay well below.
 template <Scalar S>
 bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
@@ -129,7 +133,8 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
   return times(error, constant<M>(64.0)) < extent;
 }
 
-// A level sheet whose picture on the virtual plane is the similarity.
+// A level sheet whose picture on the virtual plane is the similarity: a point l of it at the depth
+// z is seen at R(angle) l / z, so that 1 / z = sqrt(a^2 + b^2) and (cos, sin) = z (a, b).
 template <Scalar S>
 StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit, TubeAddress anchor,
                         SheetPose<S>& pose) {

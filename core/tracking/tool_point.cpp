@@ -6,6 +6,8 @@
 
 namespace tubesight::core::tracking {
 
+// The axis tip + s a meets the plane n . (P - origin) = 0 at s = h / (n . a), where
+// h = n . (origin - tip) is the tip's distance from the plane.
 template <Scalar S>
 std::optional<ToolPoint<S>> find_tool_point(const TrackingModel<S>& model,
                                             const SheetPose<S>& pose) {
@@ -30,7 +32,7 @@ Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
                            const NormalEquations<S>& equations) {
   using M = Mm<S>;
   // A turn w moves the sheet at the tool point by w x d, a shift t by t; both move the point the
-  // other way over the sheet.
+  // other way over the sheet: along an axis e of it by -e . (w x d + t) = -((d x e) . w + e . t).
   const Vector3<M> d = tool.point - pose.origin;
   const M per_unknown = constant<M>(1.0 / 128.0);
   const auto deviation = [&](const Vector3<Unit<S>>& axis) {
