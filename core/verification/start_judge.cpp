@@ -23,6 +23,8 @@ template <Scalar S>
 void StartJudge<S>::look(const Field& field, bool tracking) {
   present_ = field.number;
   by_track_ = tracking;
+  // Not what StillPicture asks: a track follows fields of either parity, and a damaged one between
+  // them counts; pictures are compared with good ones of their own parity.
   const FieldTime passed = field.mid_exposure - last_time_;
   in_time_ = field.status == FieldStatus::kGood && passed > FieldTime(0) &&
              passed <= longest_gap_ && field.sequence >= last_sequence_;
