@@ -1,7 +1,6 @@
 #include "board/box/box_loop.h"
 
 #include "core/base/assert.h"
-#include "core/base/instantiate.h"
 
 namespace tubesight::board {
 namespace {
@@ -15,15 +14,15 @@ constexpr std::int32_t kMostGarbled = core::kMaxEventsPerField;
 
 }  // namespace
 
-template <core::Scalar S>
-BoxLoop<S>::BoxLoop(core::session::Session<S>& session, const BoxPorts& ports,
-                    const BoxServices& services)
+template <core::Scalar S, typename Margin>
+BoxLoop<S, Margin>::BoxLoop(core::session::Session<S, Margin>& session, const BoxPorts& ports,
+                            const BoxServices& services)
     : session_(&session), ports_(ports), services_(services) {
   TUBESIGHT_ASSERT(ports.grabber != nullptr && ports.clock != nullptr);
 }
 
-template <core::Scalar S>
-Result<void> BoxLoop<S>::start() {
+template <core::Scalar S, typename Margin>
+Result<void> BoxLoop<S, Margin>::start() {
   if (started_) {
     return Unexpected(Error::kNotReady);
   }
@@ -44,8 +43,8 @@ Result<void> BoxLoop<S>::start() {
   return started;
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::stop() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::stop() {
   if (!started_) {
     return;
   }
@@ -61,8 +60,8 @@ void BoxLoop<S>::stop() {
   }
 }
 
-template <core::Scalar S>
-Result<void> BoxLoop<S>::turn(std::chrono::milliseconds timeout) {
+template <core::Scalar S, typename Margin>
+Result<void> BoxLoop<S, Margin>::turn(std::chrono::milliseconds timeout) {
   if (frame_half_missing_) {
     turn_without_field();
     return {};
@@ -81,8 +80,8 @@ Result<void> BoxLoop<S>::turn(std::chrono::milliseconds timeout) {
   return {};
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::turn_without_field() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::turn_without_field() {
   const bool progressive = parity_ == core::Parity::kProgressive;
   core::Field field;
   field.status = core::FieldStatus::kMissing;
@@ -99,8 +98,8 @@ void BoxLoop<S>::turn_without_field() {
 
 /// Numbers go on where missing fields took some, and where a grabber that was started anew counts
 /// from 0 again. They are shifted by whole frames, so that an earlier field's stays even.
-template <core::Scalar S>
-void BoxLoop<S>::number(core::Field& field) {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::number(core::Field& field) {
   const std::int64_t behind = last_number_ + 1 - (field.number + number_shift_);
   if (behind > 0) {
     number_shift_ += behind + behind % 2;
@@ -109,8 +108,8 @@ void BoxLoop<S>::number(core::Field& field) {
   parity_ = field.parity;
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::take(const core::Field& field) {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::take(const core::Field& field) {
   input_.field = field;
   last_number_ = field.number;
   input_.lamp_dimmed = ports_.dimmer != nullptr;
@@ -128,8 +127,8 @@ void BoxLoop<S>::take(const core::Field& field) {
 
 /// The events since the last field in time order, as many as a step takes; the others wait where
 /// they are.
-template <core::Scalar S>
-void BoxLoop<S>::gather_events() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::gather_events() {
   input_.events.clear();
   asked_enough_.fill(false);
   garbled_now_ = 0;
@@ -148,8 +147,8 @@ void BoxLoop<S>::gather_events() {
   }
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::fetch(Source source) {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::fetch(Source source) {
   if (next_[source] || asked_enough_[source]) {
     return;
   }
@@ -165,9 +164,9 @@ void BoxLoop<S>::fetch(Source source) {
   }
 }
 
-template <core::Scalar S>
+template <core::Scalar S, typename Margin>
 template <typename Port>
-void BoxLoop<S>::fetch_from(Port* port, Source source, PortCounters& counters) {
+void BoxLoop<S, Margin>::fetch_from(Port* port, Source source, PortCounters& counters) {
   while (port != nullptr) {
     const auto polled = port->poll_event();
     if (polled) {
@@ -186,8 +185,8 @@ void BoxLoop<S>::fetch_from(Port* port, Source source, PortCounters& counters) {
   asked_enough_[source] = true;
 }
 
-template <core::Scalar S>
-std::optional<core::Event>* BoxLoop<S>::earliest() {
+template <core::Scalar S, typename Margin>
+std::optional<core::Event>* BoxLoop<S, Margin>::earliest() {
   std::optional<core::Event>* first = nullptr;
   for (std::optional<core::Event>& event : next_) {
     if (event && (first == nullptr || event->at < (*first)->at)) {
@@ -197,8 +196,8 @@ std::optional<core::Event>* BoxLoop<S>::earliest() {
   return first;
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::answer() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::answer() {
   for (const core::Reply& reply : output_.replies) {
     if (reply.origin == core::EventOrigin::kRobot) {
       send(ports_.link, reply, counters_.link);
@@ -213,17 +212,17 @@ void BoxLoop<S>::answer() {
 }
 
 /// Whoever gets no answer asks again.
-template <core::Scalar S>
+template <core::Scalar S, typename Margin>
 template <typename Port>
-void BoxLoop<S>::send(Port* port, const core::Reply& reply, PortCounters& counters) {
+void BoxLoop<S, Margin>::send(Port* port, const core::Reply& reply, PortCounters& counters) {
   if (port == nullptr || !port->send_reply(reply)) {
     ++counters.lost_replies;
   }
 }
 
 /// A level that the dimmer refused is tried again after the next field.
-template <core::Scalar S>
-void BoxLoop<S>::set_lamp() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::set_lamp() {
   if (ports_.dimmer == nullptr) {
     return;
   }
@@ -233,15 +232,15 @@ void BoxLoop<S>::set_lamp() {
   }
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::serve_poses() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::serve_poses() {
   if (services_.poses != nullptr) {
     services_.poses->take(input_.field, input_.field.number, output_.order);
   }
 }
 
-template <core::Scalar S>
-void BoxLoop<S>::publish() {
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::publish() {
   if (services_.view != nullptr) {
     services_.view->take(input_.field);
   }
@@ -251,6 +250,6 @@ void BoxLoop<S>::publish() {
   }
 }
 
-TUBESIGHT_INSTANTIATE_CLASS(BoxLoop)
+TUBESIGHT_INSTANTIATE_POLICY_CLASS(BoxLoop)
 
 }  // namespace tubesight::board

@@ -14,6 +14,7 @@
 #include "core/base/scalar.h"
 #include "core/base/snapshot.h"
 #include "core/session/session.h"
+#include "core/tracking/margin_policy.h"
 #include "hal/clock.h"
 #include "hal/dimmer.h"
 #include "hal/frame_grabber.h"
@@ -59,11 +60,12 @@ struct BoxCounters {
 ///
 /// One turn() takes one field, or the news that none came, and leaves everything done that follows
 /// from it. Only the grabber waits. After start() no turn allocates. One thread; some 20 KB.
-template <core::Scalar S>
+/// `Margin` is the session's policy.
+template <core::Scalar S, typename Margin = core::tracking::MarginChecked>
 class BoxLoop {
  public:
   /// `session` is configured and outlives the loop.
-  BoxLoop(core::session::Session<S>& session, const BoxPorts& ports,
+  BoxLoop(core::session::Session<S, Margin>& session, const BoxPorts& ports,
           const BoxServices& services = {});
 
   /// Starts the lamp, which then shines in full, the link and the station. The grabber is the
@@ -113,7 +115,7 @@ class BoxLoop {
   void serve_poses();
   void publish();
 
-  core::session::Session<S>* session_;
+  core::session::Session<S, Margin>* session_;
   BoxPorts ports_;
   BoxServices services_;
   core::session::Input input_;

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 
-#include "core/base/instantiate.h"
 #include "core/tracking/candidates.h"
+#include "core/tracking/margin_policy.h"
 
 namespace tubesight::board {
 namespace {
 
-template <core::Scalar S>
-std::optional<core::ImagePoint> locate(const core::tracking::Tracker<S>& tracker,
+template <core::Scalar S, typename Margin>
+std::optional<core::ImagePoint> locate(const core::tracking::Tracker<S, Margin>& tracker,
                                        core::TubeAddress address) {
   core::ImagePoint pixel;
   return tracker.locate(address, pixel) ? std::optional(pixel) : std::nullopt;
 }
 
-template <core::Scalar S>
-void list_estimates(const core::tracking::Tracker<S>& tracker, OverlaySnapshot& snapshot) {
+template <core::Scalar S, typename Margin>
+void list_estimates(const core::tracking::Tracker<S, Margin>& tracker, OverlaySnapshot& snapshot) {
   core::tracking::CandidateList<S> expected;
   tracker.list_estimates(expected);
   for (const auto& tube : expected) {
@@ -38,8 +38,8 @@ void list_estimates(const core::tracking::Tracker<S>& tracker, OverlaySnapshot& 
 
 }  // namespace
 
-template <core::Scalar S>
-void describe(const core::session::Session<S>& session, const core::session::Output& output,
+template <core::Scalar S, typename Margin>
+void describe(const core::session::Session<S, Margin>& session, const core::session::Output& output,
               std::int64_t field, bool estimates, OverlaySnapshot& snapshot) {
   snapshot.field = field;
   snapshot.sighting = output.sighting;
@@ -57,10 +57,11 @@ void describe(const core::session::Session<S>& session, const core::session::Out
   }
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                            \
-  template void describe<S>(const core::session::Session<S>&, const core::session::Output&, \
-                            std::int64_t, bool, OverlaySnapshot&);
-TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#define TUBESIGHT_INSTANTIATE(S, Margin)                                              \
+  template void describe<S, Margin>(const core::session::Session<S, Margin>&,         \
+                                    const core::session::Output&, std::int64_t, bool, \
+                                    OverlaySnapshot&);
+TUBESIGHT_FOR_EACH_POLICY(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 
 }  // namespace tubesight::board

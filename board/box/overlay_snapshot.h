@@ -28,8 +28,8 @@ static_assert(std::is_trivially_copyable_v<OverlaySnapshot>);
 /// Fills `snapshot` with the field, of this number, that `session` has just processed with the
 /// answer `output`; with `estimates` also with the places where tubes are expected, which costs as
 /// much as finding them again. On the thread of step(), before the next one.
-template <core::Scalar S>
-void describe(const core::session::Session<S>& session, const core::session::Output& output,
+template <core::Scalar S, typename Margin>
+void describe(const core::session::Session<S, Margin>& session, const core::session::Output& output,
               std::int64_t field, bool estimates, OverlaySnapshot& snapshot);
 
 }  // namespace tubesight::board

@@ -1,5 +1,6 @@
 #include "core/camera/camera_model.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::camera {
@@ -38,11 +39,11 @@ std::optional<Ratio<S>> CameraModel<S>::radial_factor(Ratio<S> radius2) const {
     // 1 + 3 k + 5 k2 may leave the range of a Ratio, and needs no more than 20 bits.
     const Mm<S> slope =
         narrow<Mm<S>>(product(Mm<S>(1), R(1)) + product(Mm<S>(3), k) + product(Mm<S>(5), k2));
-    if (slope < from_scaled<Mm<S>>(1, 5) || slope + slope < convert<Mm<S>>(absolute(value))) {
+    if (slope < constant<Mm<S>>(1.0 / 32.0) || slope + slope < convert<Mm<S>>(absolute(value))) {
       return std::nullopt;  // the picture folds over here
     }
     m = m - quotient<R>(value, slope);
-    if (from_scaled<R>(7, 2) < m || m < R(0)) {
+    if (constant<R>(1.75) < m || m < R(0)) {
       return std::nullopt;
     }
   }

@@ -1,5 +1,6 @@
 #include "core/camera/virtual_plane.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::camera {
@@ -10,7 +11,7 @@ std::optional<Vector2<Mm<S>>> VirtualPlane<S>::from_image(const Vector2<Ratio<S>
   // No component of a ray within the domain exceeds its length, sqrt(1 + 2 * 1.8^2) = 2.7.
   const Vector3<R> ray{point.x, point.y, R(1)};
   const R depth = narrow<R>(dot(ray, normal_));
-  if (depth < from_scaled<R>(1, 3)) {
+  if (depth < constant<R>(0.125)) {
     return std::nullopt;
   }
   return Vector2<Mm<S>>{quotient<Mm<S>>(narrow<R>(dot(ray, x_axis_)), depth),
@@ -25,8 +26,8 @@ std::optional<Vector2<Ratio<S>>> VirtualPlane<S>::to_image(const Vector2<Mm<S>>&
   const Vector3<Mm<S>> ray{along(x_axis_.x, y_axis_.x, normal_.x),
                            along(x_axis_.y, y_axis_.y, normal_.y),
                            along(x_axis_.z, y_axis_.z, normal_.z)};
-  const Mm<S> reach = times(ray.z, from_scaled<Mm<S>>(18 * 1024 / 10, 10));
-  if (ray.z < from_scaled<Mm<S>>(1, 3) || absolute(ray.x) > reach || absolute(ray.y) > reach) {
+  const Mm<S> reach = times(ray.z, constant<Mm<S>>(1.8));
+  if (ray.z < constant<Mm<S>>(0.125) || absolute(ray.x) > reach || absolute(ray.y) > reach) {
     return std::nullopt;
   }
   return Vector2<Ratio<S>>{quotient<Ratio<S>>(ray.x, ray.z), quotient<Ratio<S>>(ray.y, ray.z)};

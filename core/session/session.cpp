@@ -1,6 +1,5 @@
 #include "core/session/session.h"
 
-#include "core/base/instantiate.h"
 #include "core/tracking/tracking_setup.h"
 #include "core/verification/pick_judge.h"
 
@@ -13,8 +12,8 @@ constexpr bool knows_place(TrackState state) {
 
 }  // namespace
 
-template <Scalar S>
-void Session<S>::step(const Input& input, Output& output) {
+template <Scalar S, typename Margin>
+void Session<S, Margin>::step(const Input& input, Output& output) {
   output.replies.clear();
   output.lamp_permille = lamp_wanted_.value_or(input.field.lamp_permille);
   output.order.wanted = false;
@@ -32,8 +31,8 @@ void Session<S>::step(const Input& input, Output& output) {
 }
 
 // The last of several starts before one field is the one that counts; each gets its own answer.
-template <Scalar S>
-void Session<S>::take_starts(const Field& field, const EventList& events) {
+template <Scalar S, typename Margin>
+void Session<S, Margin>::take_starts(const Field& field, const EventList& events) {
   start_refusals_.clear();
   const Start* last = nullptr;
   for (const Event& event : events) {
@@ -58,8 +57,8 @@ void Session<S>::take_starts(const Field& field, const EventList& events) {
 }
 
 // The count of judged fields and the age are the session's, whatever happens to the track.
-template <Scalar S>
-void Session<S>::remember(Sighting& sighting) {
+template <Scalar S, typename Margin>
+void Session<S, Margin>::remember(Sighting& sighting) {
   state_ = sighting.state;
   if (sighting.judged) {
     ++judged_fields_;
@@ -72,9 +71,9 @@ void Session<S>::remember(Sighting& sighting) {
   starts_.follow(field);
 }
 
-template <Scalar S>
-void Session<S>::answer(const Event& event, const Input& input, std::int32_t& start,
-                        Output& output) {
+template <Scalar S, typename Margin>
+void Session<S, Margin>::answer(const Event& event, const Input& input, std::int32_t& start,
+                                Output& output) {
   const auto reply = [&](const auto& content) {
     static_cast<void>(
         output.replies.try_push_back({event.id, event.origin, input.field.mid_exposure, content}));
@@ -108,6 +107,6 @@ void Session<S>::answer(const Event& event, const Input& input, std::int32_t& st
       event.content);
 }
 
-TUBESIGHT_INSTANTIATE_CLASS(Session)
+TUBESIGHT_INSTANTIATE_POLICY_CLASS(Session)
 
 }  // namespace tubesight::core::session

@@ -10,6 +10,7 @@
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "core/base/sighting.h"
+#include "core/tracking/margin_policy.h"
 #include "core/tracking/tracker.h"
 #include "core/verification/claim_judge.h"
 #include "core/verification/pose_requests.h"
@@ -38,8 +39,8 @@ struct Output {
 ///
 /// step() never waits, never allocates, never asks a clock, and given the same inputs leaves the
 /// same bytes on every machine in fixed point. One thread calls it. About 400 KB with the sheet's
-/// map, of which tracking_state_bytes() are the tracking state.
-template <Scalar S>
+/// map, of which tracking_state_bytes() are the tracking state. `Margin` is the tracker's policy.
+template <Scalar S, typename Margin = tracking::MarginChecked>
 class Session {
  public:
   Session() : tracker_(model_, map_), starts_(model_) {}
@@ -64,15 +65,11 @@ class Session {
   /// replays exactly.
   void step(const Input& input, Output& output);
 
-  /// Switches the tracker's margin check off: the self-proof of the campaign, which must then find
-  /// wrong tubes. Call after configure(); nothing else may.
-  void disable_margin_check_for_self_proof() { model_.margin_check = false; }
-
   /// The tracker, for estimates and places of tubes in the last field's picture.
-  [[nodiscard]] const tracking::Tracker<S>& tracker() const { return tracker_; }
+  [[nodiscard]] const tracking::Tracker<S, Margin>& tracker() const { return tracker_; }
 
   [[nodiscard]] static constexpr std::int32_t tracking_state_bytes() {
-    return static_cast<std::int32_t>(sizeof(tracking::Tracker<S>) +
+    return static_cast<std::int32_t>(sizeof(tracking::Tracker<S, Margin>) +
                                      sizeof(tracking::TrackingModel<S>));
   }
 
@@ -83,7 +80,7 @@ class Session {
 
   tracking::TrackingModel<S> model_{};
   tubesheet::SheetMap map_{};
-  tracking::Tracker<S> tracker_;
+  tracking::Tracker<S, Margin> tracker_;
   TrackState state_ = TrackState::kWaiting;
   std::int64_t judged_fields_ = 0;
   FieldTime last_judged_{0};

@@ -1,13 +1,12 @@
 // From settings to the numbers of the path; apart from step() because it computes in double.
 
-#include "core/base/instantiate.h"
 #include "core/session/session.h"
 #include "core/tracking/tracking_setup.h"
 
 namespace tubesight::core::session {
 
-template <Scalar S>
-Result<void> Session<S>::configure(const SessionSettings& settings) {
+template <Scalar S, typename Margin>
+Result<void> Session<S, Margin>::configure(const SessionSettings& settings) {
   TUBESIGHT_TRY(tracking::make_tracking_model<S>(settings, model_));
   const double step_mm =
       to_scaled(model_.lattice.parameters().shortest_step, 16) / 65536.0;  // of the path's numbers
@@ -17,9 +16,9 @@ Result<void> Session<S>::configure(const SessionSettings& settings) {
   return map_.assign(settings.tubesheet);
 }
 
-#define TUBESIGHT_INSTANTIATE(S) \
-  template Result<void> Session<S>::configure(const SessionSettings&);
-TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
+#define TUBESIGHT_INSTANTIATE(S, Margin) \
+  template Result<void> Session<S, Margin>::configure(const SessionSettings&);
+TUBESIGHT_FOR_EACH_POLICY(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 
 }  // namespace tubesight::core::session

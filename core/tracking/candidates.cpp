@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/projection.h"
 
@@ -59,7 +60,7 @@ Block<S> block_in_window(const TrackingModel<S>& model, const SheetPose<S>& pose
     }
   }
   // The window's border is bent on the image plane; between the points looked at it strays by less.
-  const Ratio<S> slack = from_scaled<Ratio<S>>(1, 5);
+  const Ratio<S> slack = constant<Ratio<S>>(1.0 / 32.0);
   block.least = block.least - Vector2<Ratio<S>>{slack, slack};
   block.most = block.most + Vector2<Ratio<S>>{slack, slack};
   return block;
@@ -87,7 +88,7 @@ class NumberRange {
     const M rows = from_scaled<M>(i, 0);
     const M columns = from_scaled<M>(j, 0);
     // As products: 31 steps of a metre each way fit.
-    const auto most = product(from_scaled<M>(2000, 0), M(1));
+    const auto most = product(constant<M>(2000.0), M(1));
     const auto inside = [&](M start, M row, M column) {
       const auto at = product(start, M(1)) + product(row, rows) + product(column, columns);
       return at < most && -at < most;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/edges/dark_region.h"
 #include "core/edges/edge_search.h"
@@ -34,7 +35,7 @@ Box box_of(const RimOutline<S>& rim) {
 template <Scalar S>
 bool cut_by_window(const TrackingModel<S>& model, const Vector2<Px<S>>& center, Mm<S> depth) {
   const Mm<S> px_per_mm = quotient<Mm<S>>(model.camera.parameters().scale_px.y, depth);
-  const Mm<S> share = from_scaled<Mm<S>>(461, 10);
+  const Mm<S> share = constant<Mm<S>>(0.45);
   const std::int32_t reach = rounded(times(times(model.bore_radius_mm, share), px_per_mm)) - 2;
   const std::int32_t u = rounded(center.x);
   const std::int32_t v = rounded(center.y);
@@ -228,7 +229,7 @@ bool shift_onto_dark_regions(const TrackingModel<S>& model, const FieldView& fie
   }
   const Vector2<M> middle{median(x, count), median(y, count)};
   // A tenth of the lattice step: what bisection, lean and heading leave between tube-ends.
-  const M near = times(model.lattice.parameters().shortest_step, from_scaled<M>(102, 10));
+  const M near = times(model.lattice.parameters().shortest_step, constant<M>(0.1));
   std::int32_t agreeing = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     if (absolute(x[i] - middle.x) < near && absolute(y[i] - middle.y) < near) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/tracking/plane_length.h"
 
 namespace tubesight::core::tracking {
 
@@ -13,6 +15,13 @@ Unit<S> seconds(FieldTime span) {
   return from_scaled<Unit<S>>(divide_rounded(bounded << 30, kSecond), 30);
 }
 
+template <Scalar S>
+bool rests(const Motion<S>& motion) {
+  return motion.known && plane_length(motion.velocity_mm_s) < constant<Mm<S>>(3.0);
+}
+
+// Each rate times the span: axes turned by w dt, the tool point moved by v dt over the sheet and
+// its height by its own rate.
 template <Scalar S>
 SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
                      const ToolPoint<S>& tool, const Motion<S>& motion, Unit<S> span_s) {
@@ -42,20 +51,21 @@ SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
 
 template <Scalar S>
 Mm<S> address_limit_mm(const TrackingModel<S>& model) {
-  return times(model.lattice.parameters().shortest_step, from_scaled<Mm<S>>(410, 10));
+  return times(model.lattice.parameters().shortest_step, constant<Mm<S>>(0.4));
 }
 
+// a span (span + interval) / 2, and at most twice the greatest speed's way.
 template <Scalar S>
 Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<S> span_s,
                    Mm<S> deviation_mm) {
   using M = Mm<S>;
-  const M milliseconds = times(from_scaled<M>(1000, 0), span_s);
+  const M milliseconds = times(constant<M>(1000.0), span_s);
   const M farthest = times(model.max_speed_mm_s, span_s);
-  const M interval_ms = motion.known ? times(from_scaled<M>(1000, 0), motion.interval_s) : M{};
+  const M interval_ms = motion.known ? times(constant<M>(1000.0), motion.interval_s) : M{};
   // mm = m/s^2 s ms. A change of speed by 2 m/s is beyond any limit and still within the format.
   const M change =
-      std::min(times(model.max_acceleration_m_s2, convert<M>(span_s)), from_scaled<M>(2, 0));
-  const M grown = times(change, times(milliseconds + interval_ms, from_scaled<M>(1, 1)));
+      std::min(times(model.max_acceleration_m_s2, convert<M>(span_s)), constant<M>(2.0));
+  const M grown = times(change, times(milliseconds + interval_ms, constant<M>(0.5)));
   if (motion.known) {
     return std::min(grown, farthest + farthest);
   }
@@ -63,12 +73,27 @@ Mm<S> reachable_mm(const TrackingModel<S>& model, const Motion<S>& motion, Unit<
   // the step at least.
   const M step = model.lattice.parameters().shortest_step;
   const M three = deviation_mm + deviation_mm + deviation_mm;
-  const M slack = std::max(times(step, from_scaled<M>(1, 4)), three + three);
+  const M slack = std::max(times(step, constant<M>(1.0 / 16.0)), three + three);
   const M unique = step - farthest - slack;
   // A micrometre under the limit: floating point rounds the sum that is compared with it.
-  const M allowed = address_limit_mm<S>(model) - three - from_scaled<M>(1, 10);
-  const M widest = std::min(times(step, from_scaled<M>(3, 3)), allowed);
+  const M allowed = address_limit_mm<S>(model) - three - constant<M>(0.001);
+  const M widest = std::min(times(step, constant<M>(0.375)), allowed);
   return std::min(farthest, std::max(std::min(widest, unique), grown));
+}
+
+// sqrt(2) sigma span / interval; neither factor beyond 32, where the track is lost anyway.
+template <Scalar S>
+Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> span_s) {
+  using M = Mm<S>;
+  if (!motion.known) {
+    return {};
+  }
+  const M most = constant<M>(32.0);
+  const M ratio = motion.interval_s < times(span_s, constant<Unit<S>>(1.0 / 32.0))
+                      ? most
+                      : quotient<M>(convert<M>(span_s), convert<M>(motion.interval_s));
+  const M root_two = constant<M>(1.415);  // rounded up
+  return times(times(std::min(place_mm, most), root_two), std::min(ratio, most));
 }
 
 template <Scalar S>
@@ -77,7 +102,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
                          const Motion<S>& last, Unit<S> span_s) {
   using M = Mm<S>;
   Motion<S> motion;
-  if (span_s < from_scaled<Unit<S>>(1, 10)) {  // under a millisecond no rate can be told
+  if (span_s < constant<Unit<S>>(0.001)) {  // under a millisecond no rate can be told
     return last;
   }
   motion.known = true;
@@ -87,10 +112,11 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   const auto moved = tool_after.local - tool_before.local;
   motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
   motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
-  // A small turn w takes each axis e to e + w x e: w = sum of e x e' / 2.
+  // A small turn w takes each axis e to e' = e + w x e. Over three axes at right angles the sum of
+  // e x e' = w - e (e . w) is 3 w - w, so w is half of it.
   const auto turn = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
                     cross<M>(before.normal, after.normal);
-  const M half = from_scaled<M>(1, 1);
+  const M half = constant<M>(0.5);
   const auto smoothed = [&](M turned, M rate_before) {
     const M now = times(rate(times(turned, half)), half);
     return last.known ? now + times(rate_before, half) : now;
@@ -102,10 +128,12 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
 
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
   template Unit<S> seconds<S>(FieldTime);                                                          \
+  template bool rests<S>(const Motion<S>&);                                                        \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
   template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \
   template Mm<S> address_limit_mm<S>(const TrackingModel<S>&);                                     \
+  template Mm<S> velocity_deviation_mm<S>(const Motion<S>&, Mm<S>, Unit<S>);                       \
   template Motion<S> motion_between<S>(const SheetPose<S>&, const ToolPoint<S>&,                   \
                                        const SheetPose<S>&, const ToolPoint<S>&, const Motion<S>&, \
                                        Unit<S>);

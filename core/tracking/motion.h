@@ -25,6 +25,11 @@ struct Motion {
   Vector3<Mm<S>> turn_rad_s{};     ///< of the sheet before the camera, camera axes
 };
 
+/// Whether the tool stands still as far as a picture tells: under 3 mm/s, a twentieth of a
+/// millimetre from field to field.
+template <Scalar S>
+[[nodiscard]] bool rests(const Motion<S>& motion);
+
 /// The pose after `span_s` at constant motion.
 template <Scalar S>
 [[nodiscard]] SheetPose<S> predict(const TrackingModel<S>& model, const SheetPose<S>& pose,
@@ -52,6 +57,12 @@ template <Scalar S>
 /// Beyond, the nearest tube-end might be a neighbour.
 template <Scalar S>
 [[nodiscard]] Mm<S> address_limit_mm(const TrackingModel<S>& model);
+
+/// What the last velocity's own uncertainty adds to a place predicted over `span_s`: the difference
+/// of two places, each known to `place_mm` (one standard deviation of what differs from picture to
+/// picture), over their interval, carried on over the span. 0 while the motion is not known.
+template <Scalar S>
+[[nodiscard]] Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> span_s);
 
 /// The motion from one fitted pose to the next; both with the same anchor.
 template <Scalar S>

@@ -52,6 +52,7 @@ void NormalEquations<S>::clear() {
   value_ = {};
 }
 
+// A += w j j^T, b += w j r, of which A's lower triangle is kept.
 template <Scalar S>
 void NormalEquations<S>::add(const PoseVector<S>& row, Mm<S> value, Mm<S> weight) {
   for (int i = 0; i < kPoseUnknowns; ++i) {
@@ -64,6 +65,8 @@ void NormalEquations<S>::add(const PoseVector<S>& row, Mm<S> value, Mm<S> weight
   }
 }
 
+// A += J^T W J, b += J^T W r with J = [j_u; j_v], W = [uu uv; uv vv], r = (u, v): first W J, then
+// its product with J^T.
 template <Scalar S>
 void NormalEquations<S>::add(const Pair& pair) {
   using M = Mm<S>;
@@ -81,6 +84,9 @@ void NormalEquations<S>::add(const Pair& pair) {
   }
 }
 
+// D A D = L L^T, D = diag(2^-exponent), column by column:
+//
+//   L_ij = ((D A D)_ij - sum over k < j of L_ik L_jk) / L_jj,   L_ii = sqrt of the same with j = i.
 template <Scalar S>
 bool NormalEquations<S>::factor() {
   using U = Unit<S>;
@@ -113,6 +119,7 @@ bool NormalEquations<S>::factor() {
   return true;
 }
 
+// L y = value: y_i = (value_i - sum over k < i of L_ik y_k) / L_ii.
 template <Scalar S>
 PoseVector<S> NormalEquations<S>::forward(const PoseVector<S>& value) const {
   PoseVector<S> y = value;
@@ -127,6 +134,7 @@ PoseVector<S> NormalEquations<S>::forward(const PoseVector<S>& value) const {
   return y;
 }
 
+// A x = b as L y = D b, L^T z = y, x = D z; b and x are scaled by 2^-block and back.
 template <Scalar S>
 PoseVector<S> NormalEquations<S>::solve() const {
   using M = Mm<S>;
@@ -162,6 +170,7 @@ PoseVector<S> NormalEquations<S>::solve() const {
   return x;
 }
 
+// sqrt(j^T A^-1 j) = |L^-1 D j|.
 template <Scalar S>
 Mm<S> NormalEquations<S>::deviation(const PoseVector<S>& row) const {
   PoseVector<S> scaled;

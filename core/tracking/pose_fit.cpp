@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/projection.h"
 
@@ -43,7 +44,17 @@ Modelled<S> modelled(const TrackingModel<S>& model, const SheetPose<S>& pose,
   return m;
 }
 
-// The derivatives of a centre's image by the unknowns: d(P_x / P_z) for dP = turn x arm + shift.
+// The derivatives of a centre's image by the unknowns. With P = origin + q, x = P_x / P_z,
+// y = P_y / P_z and the step dP = w x q + t,
+//
+//   du = s_u / P_z (dP_x - x dP_z),   dP_x = w_y q_z - w_z q_y + t_x,
+//   dv = s_v / P_z (dP_y - y dP_z),   dP_y = w_z q_x - w_x q_z + t_y,
+//                                     dP_z = w_x q_y - w_y q_x + t_z,
+//
+// so that the rows, in the order w_x w_y w_z t_x t_y t_z and w in 1/128 rad, are
+//
+//   s_u / P_z [ -x q_y          q_z + x q_x   -q_y   1   0   -x ]
+//   s_v / P_z [ -q_z - y q_y    y q_x          q_x   0   1   -y ].
 template <Scalar S>
 void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, const Modelled<S>& m,
               NormalEquations<S>& equations) {
@@ -51,8 +62,8 @@ void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, con
   const auto& scale = model.camera.parameters().scale_px;
   const M su = quotient<M>(scale.x, m.depth);  // px per mm across the line of sight
   const M sv = quotient<M>(scale.y, m.depth);
-  const M turn_u = times(su, from_scaled<M>(1, 7));
-  const M turn_v = times(sv, from_scaled<M>(1, 7));
+  const M turn_u = times(su, constant<M>(1.0 / 128.0));
+  const M turn_v = times(sv, constant<M>(1.0 / 128.0));
   const Vector3<M>& q = m.arm;
   const Ratio<S> x = m.plane.x;
   const Ratio<S> y = m.plane.y;
@@ -73,13 +84,16 @@ void add_tube(const TrackingModel<S>& model, const TubeMeasurement<S>& tube, con
 // it does not matter how far.
 template <typename M>
 M squared_distance(M u, M v) {
-  const M limit = from_scaled<M>(30, 0);
+  const M limit = constant<M>(30.0);
   const M a = std::min(absolute(u), limit);
   const M b = std::min(absolute(v), limit);
   return narrow<M>(product(a, a) + product(b, b));
 }
 
 // What is known without the picture; `moved` is the move since the prediction.
+//
+// Lean: a turn w takes the normal n to n + w x n, whose part along an axis e of the virtual plane
+// shall be 0: (n x e) . w = -n . e. Turn: w = -moved. Height: n . t = -n . moved.
 template <Scalar S>
 void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const SheetPose<S>& pose,
                const PoseVector<S>& moved, NormalEquations<S>& equations) {
@@ -90,7 +104,7 @@ void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const S
     // In the unknowns' 1/128 rad.
     const PoseVector<S> row{
         convert<M>(lever.x), convert<M>(lever.y), convert<M>(lever.z), M{}, M{}, M{}};
-    const M lean_scaled = times(lean, from_scaled<M>(128, 0));
+    const M lean_scaled = times(lean, constant<M>(128.0));
     equations.add(row, -lean_scaled, prior.lean_weight);
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -114,8 +128,8 @@ void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const S
 // step's size, below 0.1 um and 1e-6 rad.
 template <Scalar S>
 bool settled(const PoseVector<S>& delta) {
-  const Mm<S> small_turn = from_scaled<Mm<S>>(1, 3);  // 0.001 rad
-  const Mm<S> small_shift = from_scaled<Mm<S>>(1, 3);
+  const Mm<S> small_turn = constant<Mm<S>>(0.125);  // 0.001 rad, in 1/128
+  const Mm<S> small_shift = constant<Mm<S>>(0.125);
   for (std::size_t i = 0; i < 3; ++i) {
     if (absolute(delta[i]) > small_turn || absolute(delta[i + 3]) > small_shift) {
       return false;
@@ -141,16 +155,16 @@ Agreement<S> mark_outliers(const TrackingModel<S>& model, const SheetPose<S>& po
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     const auto index = static_cast<std::size_t>(i);
     const auto m = modelled<S>(model, pose, tubes[i].local, measured[index]);
-    off[index] = m.valid ? squared_distance(m.u, m.v) : from_scaled<M>(1800, 0);
+    off[index] = m.valid ? squared_distance(m.u, m.v) : constant<M>(1800.0);
   }
   std::array<M, kMaxTubesInView> sorted = off;
   auto* const middle = sorted.data() + tubes.size() / 2;
   std::nth_element(sorted.data(), middle, sorted.data() + tubes.size());
   // 4 medians of a Rayleigh distribution are 4.7 sigma; below 0.5 px nothing is an outlier.
-  const M median = std::min(*middle, from_scaled<M>(100, 0));
-  const M limit = std::max(times(median, from_scaled<M>(16, 0)), from_scaled<M>(1, 2));
+  const M median = std::min(*middle, constant<M>(100.0));
+  const M limit = std::max(times(median, constant<M>(16.0)), constant<M>(0.25));
   Agreement<S> agreement;
-  const M per_kilo = from_scaled<M>(1, 10);
+  const M per_kilo = constant<M>(1.0 / 1024.0);
   auto sum = product(M{}, M{});
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     const M d2 = off[static_cast<std::size_t>(i)];
@@ -182,6 +196,8 @@ PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
   for (std::int32_t i = 0; i < tubes.size(); ++i) {
     measured[static_cast<std::size_t>(i)] = model.camera.to_plane(tubes[i].center_px);
   }
+  // Gauss-Newton: each step solves (sum J^T W J) delta = sum J^T W r, r measured minus modelled and
+  // W the information of the measured centre.
   PoseVector<S> moved{};
   constexpr int kSteps = 4;
   for (int step = 0; step < kSteps; ++step) {
@@ -200,7 +216,7 @@ PoseFit<S> fit_pose(const TrackingModel<S>& model, const PosePrior<S>& prior,
       return fit;
     }
     const PoseVector<S> delta = equations.solve();
-    const M per_unknown = from_scaled<M>(1, 7);
+    const M per_unknown = constant<M>(1.0 / 128.0);
     move<S>(
         pose,
         {times(delta[0], per_unknown), times(delta[1], per_unknown), times(delta[2], per_unknown)},

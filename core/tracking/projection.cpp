@@ -1,5 +1,6 @@
 #include "core/tracking/projection.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::tracking {
@@ -32,6 +33,8 @@ std::optional<Vector2<Px<S>>> project(const TrackingModel<S>& model, const Sheet
   return to_pixel<S>(model, pose.origin + pose.along(local));
 }
 
+// The ray z (x, y, 1) meets the plane n . (P - origin) = 0 at the depth z = n . origin / n . (x, y,
+// 1).
 template <Scalar S>
 std::optional<Vector2<Mm<S>>> to_sheet(const TrackingModel<S>& model, const SheetPose<S>& pose,
                                        const Vector2<Px<S>>& pixel) {
@@ -40,8 +43,8 @@ std::optional<Vector2<Mm<S>>> to_sheet(const TrackingModel<S>& model, const Shee
   const Mm<S> slope = narrow<Mm<S>>(dot(ray, pose.normal));
   const Mm<S> distance = narrow<Mm<S>>(dot(pose.normal, pose.origin));
   // Depths beyond 1500 mm are refused before the division can leave the format.
-  if (slope < from_scaled<Mm<S>>(1, 5) || distance < Mm<S>{} ||
-      product(distance, Mm<S>(1)) > product(slope, from_scaled<Mm<S>>(1500, 0))) {
+  if (slope < constant<Mm<S>>(1.0 / 32.0) || distance < Mm<S>{} ||
+      product(distance, Mm<S>(1)) > product(slope, constant<Mm<S>>(1500.0))) {
     return std::nullopt;
   }
   const Mm<S> depth = quotient<Mm<S>>(distance, slope);

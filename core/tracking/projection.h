@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/constant.h"
 #include "core/base/scalar.h"
 #include "core/base/vector3.h"
 #include "core/tracking/sheet_pose.h"
@@ -13,7 +14,7 @@ namespace tubesight::core::tracking {
 /// point's plane, behind it or over 63 degrees off the axis.
 template <Scalar S>
 [[nodiscard]] std::optional<Vector2<Ratio<S>>> to_plane(const Vector3<Mm<S>>& point) {
-  if (point.z < from_scaled<Mm<S>>(8, 0)) {
+  if (point.z < constant<Mm<S>>(8.0)) {
     return std::nullopt;
   }
   // Twice the depth leaves the format from 1024 mm on.

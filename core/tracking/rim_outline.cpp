@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/projection.h"
 
@@ -27,11 +28,13 @@ constexpr auto kCosineQ30 = [] {
 static_assert(kCosineQ30[0] == 1073741824 && kCosineQ30[kRimPoints / 4] == 0 &&
               kCosineQ30[kRimPoints / 2] == -1073741824);
 
-// Half of 1 / sin(2 pi / kRimPoints) in 1/2^16: from a chord over two steps to the tangent.
+// From a chord over two steps h = 2 pi / kRimPoints to the tangent: on an ellipse
+// p(t) = c + a cos t + b sin t it is p(t + h) - p(t - h) = 2 sin(h) p'(t). 1 / (2 sin h) in 1/2^16.
 constexpr std::int64_t kTangentQ16 = (std::int64_t{1} << 45) / kCosineQ30[kRimPoints / 4 - 1];
 
 }  // namespace
 
+// r (cos t x_axis + sin t y_axis) at t = 2 pi k / kRimPoints.
 template <Scalar S>
 RimSpokes<S> make_rim_spokes(const SheetPose<S>& pose, Mm<S> radius_mm) {
   RimSpokes<S> spokes;
@@ -92,7 +95,7 @@ std::optional<RimOutline<S>> project_rim(const TrackingModel<S>& model,
   const Unit<S> share =
       from_scaled<Unit<S>>(((std::int64_t{1} << 30) + kRimPoints / 2) / kRimPoints, 30);
   rim.middle = {times(sum.x, share), times(sum.y, share)};
-  const P half = from_scaled<P>(1, 1);
+  const P half = constant<P>(0.5);
   rim.half_extent = {times(most.x - least.x, half), times(most.y - least.y, half)};
   return rim;
 }

@@ -1,5 +1,6 @@
 #include "core/tracking/rim_search.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/edges/edge_search.h"
 
@@ -81,7 +82,7 @@ Crossing<S> crossing(const Lane<S>& rim, Px<S> lane) {
   const Unit<S> per_lane = quotient<Unit<S>>(Px<S>(1), rim.lane_tangent);
   const Px<S> off = lane - rim.lane;
   M angle = times(convert<M>(off), per_lane);
-  const M half = from_scaled<M>(1, 1);
+  const M half = constant<M>(0.5);
   const M bend = times(times(angle, angle), half);
   angle += times(times(bend, rim.lane_outward), per_lane);
   const auto moved = product(angle, rim.across_tangent) - product(bend, rim.across_outward);
@@ -177,7 +178,7 @@ RimMiss search_rim(const FieldView& field, const Vector2<Px<S>>& point,
   equation.slope = predicted.slope;
   equation.distance = from_scaled<M>(found_q16, 16) - predicted.position;
   const M aside = times(predicted.slope, rim.lane_outward);
-  equation.reach = times(convert<M>(rim.across_outward) - aside, from_scaled<M>(1, 5));
+  equation.reach = times(convert<M>(rim.across_outward) - aside, constant<M>(1.0 / 32.0));
   equation.weight = quotient<M>(M(1), M(1) + times(predicted.slope, predicted.slope));
   equation.contrast = edge.contrast;
   return RimMiss::kNone;

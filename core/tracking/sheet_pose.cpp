@@ -1,5 +1,6 @@
 #include "core/tracking/sheet_pose.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::tracking {
@@ -10,11 +11,12 @@ Vector3<U> scaled(const Vector3<U>& v, U factor) {
   return {times(v.x, factor), times(v.y, factor), times(v.z, factor)};
 }
 
-// A vector of nearly unit length made one: one step of Newton's method for 1 / sqrt(s) at s = 1.
+// A vector of nearly unit length made one: one step of Newton's method for 1 / sqrt(s) at s = 1:
+// 1 + (1 - s) / 2.
 template <typename U>
 Vector3<U> normalized(const Vector3<U>& v) {
   const U length2 = narrow<U>(dot(v, v));
-  const U factor = U(1) + (from_scaled<U>(1, 1) - times(length2, from_scaled<U>(1, 1)));
+  const U factor = U(1) + (constant<U>(0.5) - times(length2, constant<U>(0.5)));
   return scaled(v, factor);
 }
 
@@ -23,7 +25,7 @@ template <typename U, typename M>
 Vector3<U> turned(const Vector3<U>& v, const Vector3<M>& turn) {
   const Vector3<U> once = cross<U>(turn, v);
   const Vector3<U> twice = cross<U>(turn, once);
-  return v + once + scaled(twice, from_scaled<U>(1, 1));
+  return v + once + scaled(twice, constant<U>(0.5));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/edges/dark_region.h"
 #include "core/tracking/projection.h"
@@ -85,7 +86,11 @@ Vector2<Mm<S>> mean(const AnchorList<S>& anchors, Vector2<Mm<S>> Anchor<S>::*mem
   return sum;
 }
 
-// Least squares for the similarity; false when the clicks' addresses contradict it by more than an
+// Least squares for the similarity s_i = [a -b; b a] l_i, both from their middles:
+//
+//   a = sum l . s / sum l . l,   b = sum (l_x s_y - l_y s_x) / sum l . l;
+//
+// false when the clicks' addresses contradict it by more than an
 // eighth of the distances: lean of a degree and rough bisection stay well below.
 template <Scalar S>
 bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
@@ -96,7 +101,7 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
   M across{};
   M size{};
   // In units of 8 mm: pitches of up to 300 mm apart keep their squares in range.
-  const M scale = from_scaled<M>(1, 3);
+  const M scale = constant<M>(0.125);
   for (const Anchor<S>& anchor : anchors) {
     const auto seen = anchor.seen - fit.middle_seen;
     const auto local = anchor.local - fit.middle_local;
@@ -106,7 +111,7 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
     across += narrow<M>(product(x, seen.y) - product(y, seen.x));
     size += narrow<M>(product(x, x) + product(y, y));
   }
-  if (size < from_scaled<M>(1, 4)) {
+  if (size < constant<M>(1.0 / 16.0)) {
     return false;
   }
   const M a = quotient<M>(along, size);  // per 8 mm
@@ -125,23 +130,24 @@ bool fit_similarity(const AnchorList<S>& anchors, Similarity<S>& fit) {
   }
   fit.a = convert<Unit<S>>(times(a, scale));
   fit.b = convert<Unit<S>>(times(b, scale));
-  return times(error, from_scaled<M>(64, 0)) < extent;
+  return times(error, constant<M>(64.0)) < extent;
 }
 
-// A level sheet whose picture on the virtual plane is the similarity.
+// A level sheet whose picture on the virtual plane is the similarity: a point l of it at the depth
+// z is seen at R(angle) l / z, so that 1 / z = sqrt(a^2 + b^2) and (cos, sin) = z (a, b).
 template <Scalar S>
 StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit, TubeAddress anchor,
                         SheetPose<S>& pose) {
   using U = Unit<S>;
   using M = Mm<S>;
   // Widened by 32: elements are around 1/200 per mm.
-  const M a = times(convert<M>(fit.a), from_scaled<M>(32, 0));
-  const M b = times(convert<M>(fit.b), from_scaled<M>(32, 0));
+  const M a = times(convert<M>(fit.a), constant<M>(32.0));
+  const M b = times(convert<M>(fit.b), constant<M>(32.0));
   const M length = square_root(times(a, a) + times(b, b));
-  if (length < from_scaled<M>(1, 5)) {
+  if (length < constant<M>(1.0 / 32.0)) {
     return StartRefusal::kHeight;  // over 1000 mm away
   }
-  const M depth = quotient<M>(from_scaled<M>(32, 0), length);
+  const M depth = quotient<M>(constant<M>(32.0), length);
   const U cosine = quotient<U>(a, length);
   const U sine = quotient<U>(b, length);
   const auto& ex = model.virtual_plane.x_axis();
@@ -165,8 +171,7 @@ StartRefusal level_pose(const TrackingModel<S>& model, const Similarity<S>& fit,
   pose.origin = pose.origin - middle;
   const auto tool = find_tool_point<S>(model, pose);
   // Docked tips stand in the tube by a few mm at most; nobody works 250 mm below the sheet.
-  if (!tool || tool->height_mm < from_scaled<M>(-15, 0) ||
-      tool->height_mm > from_scaled<M>(250, 0)) {
+  if (!tool || tool->height_mm < constant<M>(-15.0) || tool->height_mm > constant<M>(250.0)) {
     return StartRefusal::kHeight;
   }
   return StartRefusal::kNone;

@@ -1,17 +1,20 @@
 #include "core/tracking/tool_point.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/pose_fit.h"
 
 namespace tubesight::core::tracking {
 
+// The axis tip + s a meets the plane n . (P - origin) = 0 at s = h / (n . a), where
+// h = n . (origin - tip) is the tip's distance from the plane.
 template <Scalar S>
 std::optional<ToolPoint<S>> find_tool_point(const TrackingModel<S>& model,
                                             const SheetPose<S>& pose) {
   using M = Mm<S>;
   const auto& axis = model.virtual_plane.normal();
   const M slope = narrow<M>(dot(pose.normal, axis));
-  if (slope < from_scaled<M>(29, 5)) {
+  if (slope < constant<M>(0.90625)) {  // cos 25 degrees
     return std::nullopt;
   }
   ToolPoint<S> tool;
@@ -29,9 +32,9 @@ Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
                            const NormalEquations<S>& equations) {
   using M = Mm<S>;
   // A turn w moves the sheet at the tool point by w x d, a shift t by t; both move the point the
-  // other way over the sheet.
+  // other way over the sheet: along an axis e of it by -e . (w x d + t) = -((d x e) . w + e . t).
   const Vector3<M> d = tool.point - pose.origin;
-  const M per_unknown = from_scaled<M>(1, 7);
+  const M per_unknown = constant<M>(1.0 / 128.0);
   const auto deviation = [&](const Vector3<Unit<S>>& axis) {
     const Vector3<M> lever = cross<M>(d, axis);
     return equations.deviation({times(lever.x, per_unknown), times(lever.y, per_unknown),
@@ -39,7 +42,7 @@ Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
                                 convert<M>(axis.z)});
   };
   // Bounded: a hundred millimetres and a thousand are the same "unknown", and squares must fit.
-  const M limit = from_scaled<M>(30, 0);
+  const M limit = constant<M>(30.0);
   const auto bounded = [limit](M value) { return value < limit ? value : limit; };
   const M x = bounded(deviation(pose.x_axis));
   const M y = bounded(deviation(pose.y_axis));

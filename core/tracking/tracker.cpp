@@ -1,61 +1,20 @@
 #include "core/tracking/tracker.h"
 
-#include <algorithm>
-
-#include "core/base/instantiate.h"
-#include "core/tracking/picture_light.h"
-#include "core/tracking/plane_length.h"
-#include "core/tracking/projection.h"
+#include "core/base/constant.h"
+#include "core/base/overflow.h"
+#include "core/tracking/confirmed_start.h"
 
 namespace tubesight::core::tracking {
-namespace {
 
-// What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
-template <typename M>
-M systematic_mm() {
-  return from_scaled<M>(102, 10);
-}
-
-// How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
-template <typename M>
-M bisected_mm() {
-  return from_scaled<M>(512, 10);
-}
-
-template <Scalar S>
-PosePrior<S> prior_from_last_field() {
-  PosePrior<S> prior;
-  // Lean 0.5 degrees; turn 0.1 degrees and height 0.5 mm a field: kEdgeDeviation^2 / sigma^2.
-  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
-  prior.turn_weight = from_scaled<Mm<S>>(819, 10);
-  prior.height_weight = from_scaled<Mm<S>>(164, 10);
-  return prior;
-}
-
-template <Scalar S>
-PosePrior<S> prior_at_start() {
-  PosePrior<S> prior;
-  prior.lean_weight = from_scaled<Mm<S>>(33, 10);
-  return prior;
-}
-
-}  // namespace
-
-template <Scalar S>
-void Tracker<S>::request_start(const StartClickList& clicks) {
-  clicks_ = clicks;
-  start_requested_ = true;
-}
-
-template <Scalar S>
-void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
-  measured_now_ = false;
-  record_.begin_field();
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSightingList& tubes) {
+  judged_ = false;
+  observer_.clear_field();
   static_cast<void>(take_overflow_flag());
-  if (start_requested_) {
-    start_requested_ = false;
-    start(field);
-  } else if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
+  if (clicks_) {
+    start(field, *clicks_);
+    clicks_.reset();
+  } else if (knows_place()) {
     follow(field);
   }
   if (take_overflow_flag() && state_ != TrackState::kWaiting) {
@@ -66,311 +25,236 @@ void Tracker<S>::step(const Field& field, Sighting& sighting, TubeSightingList& 
     lose(Reason::kArithmetic);
     report(field, sighting, tubes);
   }
-  // A missing field is no field: one that comes late after all may be older than its giving up.
-  if (field.status != FieldStatus::kMissing) {
-    seen_time_ = field.mid_exposure;
-    seen_sequence_ = field.sequence;
-  }
+  clock_.see(field);
 }
 
-// Why the tool can be too far from where it is expected, though no picture was unusable. With no
-// field missing either, the limits of [motion] allow too much between two fields even on a perfect
-// picture, or this picture is too poor.
-template <Scalar S>
-Reason Tracker<S>::why_too_far(bool missing, Mm<S> reach_mm) const {
-  if (missing) {
-    return Reason::kGap;
-  }
-  constexpr std::int32_t kDeviations = 3;
-  const Mm<S> least = times(from_scaled<Mm<S>>(kDeviations, 0), systematic_mm<Mm<S>>());
-  return reach_mm + least > address_limit_mm<S>(*model_) ? Reason::kRate : Reason::kUncertain;
-}
-
-template <Scalar S>
-typename Tracker<S>::Outcome Tracker<S>::observe(const FieldView& field,
-                                                 const SheetPose<S>& predicted, Mm<S> reach_mm,
-                                                 bool confirm_all) {
-  using M = Mm<S>;
-  Outcome outcome;
-  outcome.pose = predicted;
-  const auto light = judge_light(field, model_->window);
-  if (light != PictureLight::kUsable) {
-    outcome.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
-    return outcome;
-  }
-  list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
-  // Pixels per mm at the anchor, in the middle of the view.
-  const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, outcome.pose.origin.z);
-  std::int32_t range_px = 3 + rounded(times(reach_mm, px_per_mm));
-  if (range_px > 9) {
-    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach_mm + bisected_mm<M>(),
-                                    record_.light, outcome.pose)) {
-      outcome.trouble = Reason::kNoTubes;
-      outcome.contradiction = true;
-      return outcome;
-    }
-    list_candidates<S>(*model_, *map_, outcome.pose, candidates_);
-    range_px = 6;
-  }
-  const FindingCount found = measure(field, range_px, outcome);
-  // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
-  outcome.contradiction = found.bright > std::max(outcome.fit.used, 2) ||
-                          (confirm_all && 2 * found.measured < found.looked_at);
-  if (!outcome.fit.solved || outcome.fit.used < 2) {
-    // There is light and no tube-end where they must be: no reason to wait for a better picture.
-    outcome.trouble = Reason::kNoTubes;
-    outcome.contradiction = true;
-    return outcome;
-  }
-  const auto tool = find_tool_point<S>(*model_, outcome.pose);
-  if (!tool) {
-    outcome.trouble = Reason::kNoTubes;
-    outcome.contradiction = true;
-    return outcome;
-  }
-  outcome.tool = *tool;
-  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
-  // of a rim point's fit is known to some 0.125 px then.
-  const M excess = std::max(M(1), times(convert<M>(outcome.fit.rms_px), from_scaled<M>(8, 0)));
-  outcome.picture_deviation_mm =
-      times(tool_point_deviation<S>(outcome.pose, *tool, equations_), excess);
-  outcome.deviation_mm = plane_length(Vector2<M>{outcome.picture_deviation_mm, systematic_mm<M>()});
-  outcome.fitted = true;
-  return outcome;
-}
-
-// Looks around the predicted rims as far as the prediction may be off for the nearest few tube-ends
-// only; they tell the motion, and the others are looked for closely.
-template <Scalar S>
-FindingCount Tracker<S>::measure(const FieldView& field, std::int32_t range_px, Outcome& outcome) {
-  constexpr std::int32_t kScouts = 6;
-  constexpr std::int32_t kCloseRangePx = 3;
-  record_.begin_field();
-  const PosePrior<S> prior = motion_.known ? prior_from_last_field<S>() : prior_at_start<S>();
-  FindingCount found;
-  if (range_px > kCloseRangePx) {
-    found = measure_field<S>(*model_, field, outcome.pose, candidates_,
-                             {0, candidates_.size(), range_px, kScouts}, record_);
-    outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
-    if (!outcome.fit.solved) {
-      return found;
-    }
-  }
-  found += measure_field<S>(*model_, field, outcome.pose, candidates_,
-                            {found.next, candidates_.size(), kCloseRangePx}, record_);
-  outcome.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, outcome.pose);
-  return found;
-}
-
-template <Scalar S>
-void Tracker<S>::follow(const Field& field) {
-  using M = Mm<S>;
-  const bool no_field = field.status == FieldStatus::kMissing;
-  if (field.mid_exposure <= seen_time_) {
-    lose(Reason::kTime);
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks) {
+  state_ = TrackState::kWaiting;
+  reason_ = Reason::kStartRefused;
+  primary_.forget();
+  motion_ = {};
+  doubt_.clear();
+  old_pictures_.begin();
+  clock_.begin();
+  order_.begin();
+  observer_.begin();
+  if (field.status != FieldStatus::kGood) {
+    start_refusal_ = StartRefusal::kPicture;
     return;
   }
-  if (!no_field && field.sequence < seen_sequence_) {
-    lose(Reason::kSequence);
+  Observation<S> seen;
+  start_refusal_ = find_confirmed_start<S>(*model_, field.pixels, clicks, observer_, seen);
+  if (start_refusal_ != StartRefusal::kNone) {
+    observer_.clear_field();  // addresses that were refuted are not told
     return;
   }
-  if (!model_->margin_check) {
+  accept(seen, field);
+}
+
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::follow(const Field& field) {
+  if (const Reason refused = clock_.refuses(field); refused != Reason::kNone) {
+    lose(refused);
+    return;
+  }
+  if constexpr (!Margin::kChecked) {
     follow_unchecked(field);
     return;
   }
-  const bool missing = misses_fields(field);
-  const FieldTime span = span_since_good(field);
-  if (span >= std::chrono::seconds(1)) {
+  const auto [missing, since_good] = clock_.pass(field);
+  if (missing) {
+    order_.miss();
+  }
+  if (since_good >= std::chrono::seconds(1)) {
     lose(missing ? Reason::kGap : Reason::kRate);
     return;
   }
-  const Unit<S> span_s = seconds<S>(span);
-  predicted_deviation_mm_ = deviation_mm_ + velocity_deviation_mm(span_s);
-  const M reach = reachable_mm<S>(*model_, motion_, span_s, predicted_deviation_mm_);
-  const M uncertain =
-      reach + predicted_deviation_mm_ + predicted_deviation_mm_ + predicted_deviation_mm_;
-  const bool coasting = reason_ != Reason::kNone && state_ == TrackState::kDegraded &&
-                        reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
-  if (uncertain > address_limit_mm<S>(*model_)) {
-    lose(coasting ? Reason::kCoasted : why_too_far(missing, reach));
+  const Unit<S> span_s = seconds<S>(since_good);
+  gate_.open(motion_, span_s, doubt_.contradicted());
+  if (gate_.exceeds_limit()) {
+    const Reason why = missing ? Reason::kGap : gate_.why_exceeded();
+    lose(coasts() ? Reason::kCoasted : why);
     return;
   }
-  const SheetPose<S> predicted = predict<S>(*model_, pose_, tool_, motion_, span_s);
-  // A picture that refuted the prediction showed the sheet: what comes back must fit the motion as
-  // closely as it had to then, or it is another tube's neighbourhood.
-  if (contradictions_ == 0) {
-    believed_mm_ = reach;
-  }
-  const M believed = std::min(believed_mm_, reach);
+  const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
-    coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted, reach);
+    const bool no_field = field.status == FieldStatus::kMissing;
+    coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted);
     return;
   }
-  const Outcome outcome = observe(field.pixels, predicted, believed, false);
-  if (outcome.contradiction) {
-    look_aside(field);
-    doubt(outcome.trouble == Reason::kNone ? Reason::kJump : outcome.trouble, predicted, reach);
+  const Observation<S> seen =
+      observer_.observe(field.pixels, {predicted, gate_.believed_mm(), motion_.known});
+  if (seen.contradiction) {
+    doubt(seen.trouble == Reason::kNone ? Reason::kJump : seen.trouble, field, predicted);
     return;
   }
-  if (!outcome.fitted) {
-    coast(outcome.trouble, predicted, reach);
+  if (!seen.fitted) {
+    coast(seen.trouble, predicted);
     return;
   }
-  if (const Reason refused = gate(outcome, predicted, believed, span_s); refused != Reason::kNone) {
-    look_aside(field);
-    doubt(refused, predicted, reach);
+  if (const Reason refused = gate(seen, predicted, span_s); refused != Reason::kNone) {
+    doubt(refused, field, predicted);
     return;
   }
-  accept(outcome, field, span_s);
+  motion_ = motion_between<S>(good_.pose, good_.tool, seen.pose, seen.tool, motion_, span_s);
+  accept(seen, field);
 }
 
-template <Scalar S>
-Reason Tracker<S>::gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
-                        Unit<S> span_s) const {
-  using M = Mm<S>;
+// Whether the last field already was not believed: what is lost then has been passed over too long.
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::coasts() const {
+  return state_ == TrackState::kDegraded && reason_ != Reason::kNone &&
+         reason_ != Reason::kFewTubes && reason_ != Reason::kUncertain;
+}
+
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::shows_old_picture(const Field& field) {
+  return old_pictures_.shows_old(field, model_->window);
+}
+
+template <Scalar S, typename Margin>
+Reason Tracker<S, Margin>::gate(const Observation<S>& seen, const SheetPose<S>& predicted,
+                                Unit<S> span_s) const {
   const auto expected = find_tool_point<S>(*model_, predicted);
   if (!expected) {
     return Reason::kJump;
   }
-  const M noise = outcome.deviation_mm + outcome.deviation_mm + outcome.deviation_mm;
-  if (plane_length(outcome.tool.local - expected->local) > reach_mm + noise) {
-    return Reason::kJump;
-  }
-  const M farthest = times(model_->max_speed_mm_s, span_s);
-  const M moved = plane_length(outcome.tool.local - tool_.local);
-  // A quarter above the limit: its own control may overshoot, the box's noise adds to it.
-  if (moved > farthest + times(farthest, from_scaled<M>(1, 2)) + noise) {
-    return Reason::kSpeed;
-  }
-  return Reason::kNone;
+  return gate_.refuses(seen.tool.local, seen.deviation_mm, expected->local, good_.tool.local,
+                       span_s);
 }
 
-template <Scalar S>
-void Tracker<S>::accept(const Outcome& outcome, const Field& field, Unit<S> span_s) {
-  if (state_ == TrackState::kTracking || state_ == TrackState::kDegraded) {
-    motion_ = motion_between<S>(pose_, tool_, outcome.pose, outcome.tool, motion_, span_s);
-  }
-  pose_ = outcome.pose;
-  tool_ = outcome.tool;
-  deviation_mm_ = outcome.deviation_mm;
-  predicted_deviation_mm_ = outcome.deviation_mm;
-  picture_deviation_mm_ = outcome.picture_deviation_mm;
-  residual_px_ = outcome.fit.rms_px;
-  last_time_ = field.mid_exposure;
-  last_sequence_ = field.sequence;
-  contradictions_ = 0;
-  to_agree_ = std::max(to_agree_ - 1, 0);
-  learn_noise();
-  note_place(field, tool_.local);
-  measured_now_ = true;
-  const Mm<S> doubtful = from_scaled<Mm<S>>(3, 2);  // 0.75 mm: an offset of 2.5 mm means little
-  if (outcome.fit.used < 3) {
-    reason_ = Reason::kFewTubes;
-  } else {
-    reason_ = outcome.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
-  }
-  if (to_agree_ > 0) {
-    reason_ = doubted_;
-  }
-  state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
-  choose_primary();
+// Believes what the field shows. The motion is that from the field believed before to this one.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) {
+  good_ = seen;
+  judged_ = true;
+  gate_.close(seen.deviation_mm, seen.picture_deviation_mm);
+  clock_.believe(field);
+  doubt_.agree();
+  old_pictures_.believe(rests<S>(motion_));
+  order_.believe(field, seen.tool.local);
+  judge(seen);
+  primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
-  shown_ = pose_;
-  tool_shown_ = tool_;
-  strayed_mm_ = {};
-  if (order_.wrong() && model_->margin_check) {
+  shown_ = {good_.pose, good_.tool};
+  if (Margin::kChecked && order_.wrong()) {
     lose(Reason::kFieldOrder);
   }
 }
 
-// One field torn, repeated or of noise is passed over; three in a row are a jump. What comes behind
-// it may be another false picture that happens to fit: two in a row must agree.
-template <Scalar S>
-void Tracker<S>::doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm) {
-  constexpr std::int32_t kMostContradictions = 2;
-  to_agree_ = 2;
-  doubted_ = reason;
-  if (++contradictions_ > kMostContradictions || !motion_.known) {
-    lose(order_explains() ? Reason::kFieldOrder : reason);
-    return;
+// How far a field that is believed can be relied on.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::judge(const Observation<S>& seen) {
+  const Mm<S> doubtful = constant<Mm<S>>(0.75);  // an offset of 2.5 mm means little
+  if (doubt_.lasts()) {
+    reason_ = doubt_.reason();
+  } else if (seen.fit.used < 3) {
+    reason_ = Reason::kFewTubes;
+  } else {
+    reason_ = seen.deviation_mm > doubtful ? Reason::kUncertain : Reason::kNone;
   }
-  coast(reason, predicted, reach_mm);
+  state_ = reason_ == Reason::kNone ? TrackState::kTracking : TrackState::kDegraded;
 }
 
-template <Scalar S>
-void Tracker<S>::coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm) {
+// Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::reanchor() {
+  if (!primary_.known() || primary_.is(good_.pose.anchor)) {
+    return;
+  }
+  const auto shift = model_->lattice.offset(good_.pose.anchor, primary_.address());
+  good_.pose.origin = good_.pose.origin + good_.pose.along(shift);
+  good_.pose.anchor = primary_.address();
+  good_.tool.local = good_.tool.local - shift;
+  order_.move_anchor(shift);
+}
+
+// A good picture refutes the prediction.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
+  if (motion_.known) {
+    order_.look_aside(field, good_.pose, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
+  }
+  doubt_.raise(reason);
+  if (doubt_.is_certainty() || !motion_.known) {
+    lose(order_.explains(clock_.usual_span_ns()) ? Reason::kFieldOrder : reason);
+    return;
+  }
+  coast(reason, predicted);
+}
+
+// Passes over a field: the prediction stands for it.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::coast(Reason reason, const SheetPose<S>& predicted) {
   const auto tool = find_tool_point<S>(*model_, predicted);
   if (!tool) {
     lose(Reason::kJump);
     return;
   }
-  if (contradictions_ == 0) {
+  if (!doubt_.contradicted()) {
     order_.miss();
   }
   state_ = TrackState::kDegraded;
   reason_ = reason;
-  record_.begin_field();
-  shown_ = predicted;
-  tool_shown_ = *tool;
-  strayed_mm_ = reach_mm;
+  observer_.clear_field();
+  shown_ = {predicted, *tool};
+  gate_.pass_over();
 }
 
-template <Scalar S>
-void Tracker<S>::lose(Reason reason) {
+// Ends the track until a new start.
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::lose(Reason reason) {
   state_ = TrackState::kLost;
-  measured_now_ = false;
   reason_ = reason;
-  primary_known_ = false;
-  record_.begin_field();
+  judged_ = false;
+  primary_.forget();
+  observer_.clear_field();
 }
 
-// The measured tube-end nearest to the optimum point, kept until another is nearer by 10 %.
-template <Scalar S>
-void Tracker<S>::choose_primary() {
-  const auto distance2 = [this](const TubeMeasurement<S>& tube) {
-    const std::int32_t u = rounded(tube.center_px.x) - rounded(model_->optimum_px.x);
-    const std::int32_t v = rounded(tube.center_px.y) - rounded(model_->optimum_px.y);
-    return u * u + v * v;
-  };
-  const TubeMeasurement<S>* nearest = nullptr;
-  const TubeMeasurement<S>* kept = nullptr;
-  for (const auto& tube : record_.measured) {
-    if (!tube.used) {
-      continue;
-    }
-    if (nearest == nullptr || distance2(tube) < distance2(*nearest)) {
-      nearest = &tube;
-    }
-    if (primary_known_ && tube.address == primary_) {
-      kept = &tube;
-    }
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::report(const Field& field, Sighting& sighting,
+                                TubeSightingList& tubes) const {
+  sighting = {};
+  tubes.clear();
+  sighting.time = field.mid_exposure;
+  sighting.state = state_;
+  sighting.reason = reason_;
+  sighting.field = field.number;
+  sighting.status = field.status;
+  sighting.judged = judged_;
+  if (judged_) {
+    sighting.residual_px_q16 = to_scaled(good_.fit.rms_px, 16);
   }
-  if (nearest == nullptr) {
+  report_tubes<S>(observer_.record(), primary_, sighting, tubes);
+  // After a picture that refuted the prediction nothing is said of the tool until two agree.
+  if (doubt_.lasts() || !knows_place()) {
     return;
   }
-  // 10 % in distance is 19 % in its square.
-  const bool stay = kept != nullptr &&
-                    100 * std::int64_t{distance2(*nearest)} >= 81 * std::int64_t{distance2(*kept)};
-  primary_ = stay ? kept->address : nearest->address;
-  primary_known_ = true;
-}
-
-// Moves the pose's origin to the primary tube, so that levers stay short wherever the tool goes.
-template <Scalar S>
-void Tracker<S>::reanchor() {
-  if (!primary_known_ || primary_ == pose_.anchor) {
-    return;
-  }
-  const auto shift = model_->lattice.offset(pose_.anchor, primary_);
-  pose_.origin = pose_.origin + pose_.along(shift);
-  pose_.anchor = primary_;
-  tool_.local = tool_.local - shift;
-  order_.shift({-to_scaled(shift.x, 10), -to_scaled(shift.y, 10)});
-  for (auto& tube : record_.measured) {
-    tube.local = tube.local - shift;
+  report_axis<S>(*model_, shown_, motion_, sighting);
+  const NearestTube<S> nearest = find_nearest_tube<S>(*model_, shown_);
+  const Mm<S> margin = gate_.margin(nearest.to_edge_mm);
+  report_margin(margin, sighting);
+  // Four standard deviations from the rounding limit, or the address is not said.
+  const bool certain = !Margin::kChecked || margin >= constant<Mm<S>>(4.0);
+  if (certain && map_->state(nearest.address) != TubeState::kAbsent) {
+    report_tool<S>(*model_, shown_.pose, nearest, sighting);
   }
 }
 
-TUBESIGHT_INSTANTIATE_CLASS(Tracker)
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::list_estimates(CandidateList<S>& estimates) const {
+  estimates.clear();
+  if (knows_place()) {
+    list_candidates<S>(*model_, *map_, shown_.pose, estimates);
+  }
+}
+
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::locate(TubeAddress address, ImagePoint& pixel) const {
+  return knows_place() && locate_tube<S>(*model_, shown_.pose, address, pixel);
+}
+
+TUBESIGHT_INSTANTIATE_POLICY_CLASS(Tracker)
 
 }  // namespace tubesight::core::tracking

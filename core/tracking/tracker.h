@@ -1,43 +1,46 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <optional>
 
 #include "core/base/field.h"
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
-#include "core/tracking/field_measurement.h"
-#include "core/tracking/field_order.h"
+#include "core/tracking/doubt.h"
+#include "core/tracking/field_clock.h"
+#include "core/tracking/field_order_watch.h"
+#include "core/tracking/field_report.h"
+#include "core/tracking/margin_policy.h"
 #include "core/tracking/motion.h"
-#include "core/tracking/normal_equations.h"
-#include "core/tracking/picture_memory.h"
-#include "core/tracking/pose_fit.h"
+#include "core/tracking/old_picture_watch.h"
+#include "core/tracking/primary_tube.h"
+#include "core/tracking/sheet_observer.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/start.h"
-#include "core/tracking/tool_point.h"
+#include "core/tracking/tool_gate.h"
 #include "core/tracking/tracking_model.h"
 #include "core/tubesheet/sheet_map.h"
 
 namespace tubesight::core::tracking {
 
-/// Tubes that a field's output can tell of: the measured ones and recognised plugs.
-using TubeSightingList = StaticVector<TubeSighting, kMaxTubesInView + 64>;
-
 /// Follows the tubesheet from field to field and names the tube above the guidetube [Fallon ch. 6].
 ///
-/// An address is never guessed: it carries over by rounding to the lattice, and only while the
-/// region that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
+/// Each field is told by the clock, predicted by the motion, looked at by the observer, let in by
+/// the gate, and then believed, doubted or passed over (coasted) until the track is lost. An
+/// address is never guessed: it carries over by rounding to the lattice, and only while the region
+/// that the tool can have reached stays within 0.4 of the shortest lattice step; see docs.
+///
 /// One thread; no heap, no clock; the same inputs leave the same bytes on every machine in fixed
-/// point. `model` and `map` outlive the tracker and do not change.
-template <Scalar S>
+/// point. `model` and `map` outlive the tracker and do not change. `Margin` is MarginChecked, but
+/// in the campaign's self-proof.
+template <Scalar S, typename Margin = MarginChecked>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
-      : model_(&model), map_(&map) {}
+      : model_(&model), map_(&map), gate_(model), order_(model), observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up.
-  void request_start(const StartClickList& clicks);
+  void request_start(const StartClickList& clicks) { clicks_ = clicks; }
 
   /// Processes one field. Costs some 19,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
@@ -54,92 +57,47 @@ class Tracker {
 
   /// How the sheet stood in the last step(): as fitted, or as predicted while coasting. Valid while
   /// tracking or degraded.
-  [[nodiscard]] const SheetPose<S>& shown() const { return shown_; }
+  [[nodiscard]] const SheetPose<S>& shown() const { return shown_.pose; }
 
  private:
-  struct Outcome {
-    bool fitted = false;
-    Reason trouble = Reason::kNone;  ///< why not
-    bool contradiction = false;      ///< the picture is good and refutes the prediction
-    PoseFit<S> fit{};
-    SheetPose<S> pose{};
-    ToolPoint<S> tool{};
-    Mm<S> deviation_mm{};
-    Mm<S> picture_deviation_mm{};  ///< the picture's share of it
-  };
-
-  void start(const Field& field);
-  [[nodiscard]] bool confirms_clicks(const Outcome& outcome) const;
-  [[nodiscard]] bool misses_fields(const Field& field);
-  [[nodiscard]] Reason why_too_far(bool missing, Mm<S> reach_mm) const;
-  [[nodiscard]] FieldTime span_since_good(const Field& field);
-  [[nodiscard]] Mm<S> velocity_deviation_mm(Unit<S> span_s) const;
+  [[nodiscard]] bool knows_place() const {
+    return state_ == TrackState::kTracking || state_ == TrackState::kDegraded;
+  }
+  [[nodiscard]] bool coasts() const;
+  void start(const Field& field, const StartClickList& clicks);
   void follow(const Field& field);
-  void follow_unchecked(const Field& field);
-  [[nodiscard]] Outcome observe(const FieldView& field, const SheetPose<S>& predicted,
-                                Mm<S> reach_mm, bool confirm_all);
-  [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
-                                     Outcome& outcome);
-  [[nodiscard]] Reason gate(const Outcome& outcome, const SheetPose<S>& predicted, Mm<S> reach_mm,
-                            Unit<S> span_s) const;
+  void follow_unchecked(const Field& field);  ///< is defined in the self-proof alone
   [[nodiscard]] bool shows_old_picture(const Field& field);
-  void learn_noise();
-  void note_place(const Field& field, const Vector2<Mm<S>>& local);
-  void look_aside(const Field& field);
-  [[nodiscard]] bool order_explains() const;
-  void accept(const Outcome& outcome, const Field& field, Unit<S> span_s);
+  [[nodiscard]] Reason gate(const Observation<S>& seen, const SheetPose<S>& predicted,
+                            Unit<S> span_s) const;
+  void accept(const Observation<S>& seen, const Field& field);
+  void judge(const Observation<S>& seen);
   void reanchor();
-  void doubt(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
-  void coast(Reason reason, const SheetPose<S>& predicted, Mm<S> reach_mm);
+  void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted);
+  void coast(Reason reason, const SheetPose<S>& predicted);
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
-  void report_tool(Sighting& sighting) const;
-  void choose_primary();
 
   const TrackingModel<S>* model_;
   const tubesheet::SheetMap* map_;
 
   TrackState state_ = TrackState::kWaiting;
   Reason reason_ = Reason::kNoStart;
+  std::optional<StartClickList> clicks_;  ///< of a start with the next field
   StartRefusal start_refusal_ = StartRefusal::kNone;
-  bool start_requested_ = false;
-  StartClickList clicks_;
 
-  SheetPose<S> pose_{};   ///< of the last good field
-  SheetPose<S> shown_{};  ///< of this field: fitted, or predicted while coasting
-  ToolPoint<S> tool_{};   ///< of pose_
-  ToolPoint<S> tool_shown_{};
-  Mm<S> deviation_mm_{};            ///< of tool_, one standard deviation
-  Mm<S> picture_deviation_mm_{};    ///< of tool_, without what is systematic
-  Mm<S> predicted_deviation_mm_{};  ///< of tool_shown_
-  Px<S> residual_px_{};             ///< of the tube-ends used in the last good field
-  Mm<S> believed_mm_{};             ///< reach at the first field that refuted the prediction
-  Mm<S> strayed_mm_{};              ///< how far it may be off besides, while coasting
-  Motion<S> motion_{};
-  FieldTime last_time_{0};          ///< of the last good field
-  std::int64_t last_sequence_ = 0;  ///< of the last good field
-  FieldTime seen_time_{0};          ///< of the last field, good or not
-  std::int64_t seen_sequence_ = 0;
-  std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
-  std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
-  std::int64_t usual_span_ns_ = 0;    ///< shortest time from field to field; 0: not known
-  std::int32_t contradictions_ = 0;   ///< fields in a row that refuted the prediction
-  std::int32_t to_agree_ = 0;         ///< fields that must agree before a tube is named again
-  Reason doubted_ = Reason::kNone;    ///< why
-  PictureMemory memory_{};
-  PictureLikeness likeness_{};  ///< of the last field that was looked at
-  std::int32_t rested_ = 0;     ///< fields in a row with the tool at rest
-  bool noisy_ = false;  ///< pictures of a tool at rest differ: equal ones are no new pictures
-  FieldOrder order_{};
-  SheetPose<S> aside_{};  ///< of the last field that refuted the prediction, wherever it was found
-  bool aside_known_ = false;
-  bool measured_now_ = false;
-  bool primary_known_ = false;
-  TubeAddress primary_{};
+  Observation<S> good_{};  ///< of the last field that was believed
+  Motion<S> motion_{};     ///< between the last two of those
+  Place<S> shown_{};       ///< of this field: fitted, or predicted while coasting
+  bool judged_ = false;    ///< this field was believed
+  PrimaryTube primary_{};
 
-  FieldRecord<S> record_{};
-  CandidateList<S> candidates_{};
-  NormalEquations<S> equations_{};
+  FieldClock clock_{};
+  ToolGate<S> gate_;
+  Doubt doubt_{};
+  OldPictureWatch old_pictures_{};
+  FieldOrderWatch<S> order_;
+  SheetObserver<S> observer_;
 };
 
 }  // namespace tubesight::core::tracking

@@ -34,11 +34,6 @@ struct TrackingModel {
   Mm<S> aligned_within_mm{};
   std::int32_t initial_threshold = 200;
   std::int32_t region_threshold = 60;
-
-  /// False in the self-proof of the campaign alone, which no settings reach: the tracker then
-  /// rounds to the nearest tube without asking whether the tool can be there, and must be found
-  /// out.
-  bool margin_check = true;
 };
 
 }  // namespace tubesight::core::tracking

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 
 namespace tubesight::core::tracking {
@@ -52,7 +53,7 @@ std::optional<Shift<S>> solve(const Sums<S>& sums) {
   const M vg = narrow<M>(sums.vg);
   const M g = narrow<M>(sums.g);
   // A growth of 0.5 px per 32 px (bores, blur, glare) is as likely as an edge off by 0.2 px.
-  const M gg = narrow<M>(sums.gg) + from_scaled<M>(1, 3);
+  const M gg = narrow<M>(sums.gg) + constant<M>(0.125);
   const M share_u = quotient<M>(ug, gg);
   const M share_v = quotient<M>(vg, gg);
   const M uu = narrow<M>(sums.uu - product(ug, share_u));
@@ -60,7 +61,7 @@ std::optional<Shift<S>> solve(const Sums<S>& sums) {
   const M vv = narrow<M>(sums.vv - product(vg, share_v));
   const M u = narrow<M>(sums.u - product(g, share_u));
   const M v = narrow<M>(sums.v - product(g, share_v));
-  const M half = from_scaled<M>(1, 1);
+  const M half = constant<M>(0.5);
   if (uu < half || vv < half) {
     return std::nullopt;
   }
@@ -88,7 +89,7 @@ Mm<S> squared_distance(const RimEquation<S>& e, const Shift<S>& shift) {
   const M aside = e.along_line ? shift.dv : shift.du;
   const M r = narrow<M>(product(e.distance - straight, M(1)) + product(e.slope, aside) -
                         product(e.reach, shift.growth));
-  const M limit = from_scaled<M>(16, 0);
+  const M limit = constant<M>(16.0);
   const M bounded = r > limit ? limit : (r < -limit ? -limit : r);
   return times(times(bounded, bounded), e.weight);
 }
@@ -122,8 +123,8 @@ class RimFit {
       largest = largest < squares[i] ? squares[i] : largest;
     }
     mean_square_ = quotient<M>(sum, from_scaled<M>(count_, 0));
-    const M floor = from_scaled<M>(1, 3);
-    M limit = times(mean_square_, from_scaled<M>(4, 0));
+    const M floor = constant<M>(0.125);
+    M limit = times(mean_square_, constant<M>(4.0));
     limit = limit < floor ? floor : limit;
     if (largest <= limit) {
       return false;
@@ -195,9 +196,9 @@ Finding measure_tube(const FieldView& field, const RimOutline<S>& outline,
   }
   const M range = from_scaled<M>(bounds.range_px, 0);
   // A rim 2.75 px wider per 32 px is not this tube-end's: a plug's hole, the outside of a weld.
-  const M widest = from_scaled<M>(44, 4);
+  const M widest = constant<M>(2.75);
   if (absolute(shift->du) > range || absolute(shift->dv) > range ||
-      absolute(shift->growth) > widest || rim.mean_square() > from_scaled<M>(1, 1)) {
+      absolute(shift->growth) > widest || rim.mean_square() > constant<M>(0.5)) {
     return Finding::kDisagrees;
   }
   result.center_px = {result.predicted_px.x + convert<Px<S>>(shift->du),

@@ -1,5 +1,6 @@
 #include "core/verification/start_judge.h"
 
+#include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
@@ -21,6 +22,8 @@ template <Scalar S>
 void StartJudge<S>::look(const Field& field, bool tracking) {
   present_ = field.number;
   by_track_ = tracking;
+  // Not what StillPicture asks: a track follows fields of either parity, and a damaged one between
+  // them counts; pictures are compared with good ones of their own parity.
   const FieldTime passed = field.mid_exposure - last_time_;
   in_time_ = field.status == FieldStatus::kGood && passed > FieldTime(0) &&
              passed <= longest_gap_ && field.sequence >= last_sequence_;
@@ -82,7 +85,7 @@ bool StartJudge<S>::has_moved(const tracking::SheetPose<S>& pose) const {
   const Mm<S> radius_px = times(model_->bore_radius_mm, px_per_mm);
   const Vector2<Mm<S>> shift{convert<Mm<S>>(now->x - before->x),
                              convert<Mm<S>>(now->y - before->y)};
-  return tracking::plane_length(shift) > times(radius_px, from_scaled<Mm<S>>(1, 3));
+  return tracking::plane_length(shift) > times(radius_px, constant<Mm<S>>(0.125));
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(StartJudge)

@@ -80,7 +80,7 @@ ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
   ScenarioVerdict verdict;
   const auto world = std::make_unique<drivers::SimulatedWorld>();
   const drivers::Scenario& scenario = file.scenario;
-  const auto box = std::make_unique<board::SimulatedBox>(*world, scenario);
+  const auto box = std::make_unique<board::SimulatedBox<>>(*world, scenario);
   if (!box->start()) {
     return verdict;
   }

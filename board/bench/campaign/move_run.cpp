@@ -4,6 +4,7 @@
 
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/script/simulated_box.h"
+#include "core/tracking/margin_policy.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -45,13 +46,17 @@ class Digest {
 }  // namespace
 
 MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& options) {
+  return options.margin_check
+             ? play<core::tracking::MarginChecked>(scenario, options.stop_at_wrong)
+             : play<core::tracking::MarginUnchecked>(scenario, options.stop_at_wrong);
+}
+
+template <typename Margin>
+MoveResult MoveRunner::play(const drivers::Scenario& scenario, bool stop_at_wrong) {
   MoveResult result;
-  const auto box = std::make_unique<SimulatedBox>(*world_, scenario);
+  const auto box = std::make_unique<SimulatedBox<Margin>>(*world_, scenario);
   if (!box->start()) {
     return result;
-  }
-  if (!options.margin_check) {
-    box->session().disable_margin_check_for_self_proof();
   }
   result.runs = true;
   MoveJudge judge({scenario.told.verification.aligned_within_mm, pitch_mm(scenario.scene.sheet)});
@@ -64,7 +69,7 @@ MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& 
     judge.take(truth_of(field.truth), sighting);
     if (wrong_before < 0 && judge.first_wrong_field() >= 0) {
       result.first_wrong_field = field.slot;
-      if (options.stop_at_wrong) {
+      if (stop_at_wrong) {
         break;
       }
     }

@@ -11,7 +11,8 @@ namespace tubesight::board::campaign {
 
 /// How a scenario is run.
 struct RunOptions {
-  /// False: the self-proof. The tracker rounds to the nearest tube without asking whether it can.
+  /// False: the self-proof, played by the box of board/bench/self_proof. Its tracker rounds to the
+  /// nearest tube without asking whether it can.
   bool margin_check = true;
   bool stop_at_wrong = false;  ///< ends with the first wrong tube vouched for
 };
@@ -31,6 +32,9 @@ class MoveRunner {
   [[nodiscard]] MoveResult run(const drivers::Scenario& scenario, const RunOptions& options);
 
  private:
+  template <typename Margin>
+  [[nodiscard]] MoveResult play(const drivers::Scenario& scenario, bool stop_at_wrong);
+
   std::unique_ptr<drivers::SimulatedWorld> world_ = std::make_unique<drivers::SimulatedWorld>();
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/result.h"
 #include "core/base/scalar.h"
 #include "core/session/session.h"
+#include "core/tracking/margin_policy.h"
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_clock.h"
 #include "drivers/simulated/simulated_frame_grabber.h"
@@ -16,10 +17,12 @@
 namespace tubesight::board {
 
 /// A box that watches a scenario in memory, in fixed point: its robot and operator do what the
-/// scenario says, and the world's own lamp obeys its commands. Some 400 KB: heap.
+/// scenario says, and the world's own lamp obeys its commands. Some 400 KB: heap. `Margin` is the
+/// session's policy; that of the self-proof needs board/bench/self_proof.
+template <typename Margin = core::tracking::MarginChecked>
 class SimulatedBox {
  public:
-  using Session = core::session::Session<core::FixedPoint>;
+  using Session = core::session::Session<core::FixedPoint, Margin>;
 
   /// Both outlive the box.
   SimulatedBox(drivers::SimulatedWorld& world, const drivers::Scenario& scenario)
@@ -29,12 +32,14 @@ class SimulatedBox {
 
   /// Goes to the start of the scenario. Errors: those of SimulatedWorld::configure() and
   /// Session::configure(). Call once.
-  [[nodiscard]] core::Result<void> start();
+  [[nodiscard]] core::Result<void> start() {
+    TUBESIGHT_TRY(grabber_.start());
+    TUBESIGHT_TRY(session_.configure(scenario_->told));
+    return loop_.start();
+  }
 
   /// Takes the next field. kEndOfData: there was none.
   [[nodiscard]] core::Result<void> turn() { return loop_.turn(std::chrono::milliseconds(0)); }
-
-  [[nodiscard]] Session& session() { return session_; }
 
   /// The last field with its truth, and what the box made of it.
   [[nodiscard]] const drivers::SimulatedField& field() const { return grabber_.last(); }
@@ -48,8 +53,8 @@ class SimulatedBox {
   ScriptedRobotLink link_{script_};
   ScriptedOperatorStation station_{script_};
   Session session_;
-  BoxLoop<core::FixedPoint> loop_{session_,
-                                  BoxPorts{&grabber_, &clock_, nullptr, &link_, &station_}};
+  BoxLoop<core::FixedPoint, Margin> loop_{session_,
+                                          BoxPorts{&grabber_, &clock_, nullptr, &link_, &station_}};
 };
 
 }  // namespace tubesight::board

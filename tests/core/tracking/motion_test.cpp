@@ -198,5 +198,34 @@ TYPED_TEST(MotionOf, KeepsTheLastMotionWithinAMillisecond) {
   EXPECT_EQ(number(motion.velocity_mm_s.y), 34.0);
 }
 
+TYPED_TEST(MotionOf, CarriesTheVelocitysDeviationOnOverTheSpan) {
+  using S = TypeParam;
+  const auto deviation = [](const Motion<S>& motion, double place, double span) {
+    return number(velocity_deviation_mm<S>(motion, Mm<S>(place), Unit<S>(span)));
+  };
+  Motion<S> motion;
+  motion.interval_s = Unit<S>(0.02);
+  EXPECT_EQ(deviation(motion, 0.1, 0.02), 0.0) << "no motion is known";
+  motion.known = true;
+  // sqrt(2) * 0.1 mm * span / interval.
+  EXPECT_NEAR(deviation(motion, 0.1, 0.02), 0.14142, 2e-4);
+  EXPECT_NEAR(deviation(motion, 0.1, 0.06), 0.42426, 5e-4);
+  // Bounded where the quotient would leave the format: sqrt(2) * 0.1 * 32.
+  motion.interval_s = Unit<S>(0.001);
+  EXPECT_NEAR(deviation(motion, 0.1, 0.9), 4.5255, 5e-3);
+}
+
+TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
+  using S = TypeParam;
+  Motion<S> motion;
+  EXPECT_FALSE(rests<S>(motion)) << "an unknown motion is none at rest";
+  motion.known = true;
+  EXPECT_TRUE(rests<S>(motion));
+  motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.2)};  // 2.97 mm/s
+  EXPECT_TRUE(rests<S>(motion));
+  motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
+  EXPECT_FALSE(rests<S>(motion));
+}
+
 }  // namespace
 }  // namespace tubesight::core::tracking

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/base/image_view.h"
+#include "core/base/scalar.h"
+#include "core/tracking/sheet_observer.h"
+#include "core/tracking/start.h"
+#include "core/tracking/tracking_model.h"
+
+namespace tubesight::core::tracking {
+
+/// Takes an operator's clicks in one field for what they say, if the whole window confirms it.
+///
+/// The rough pose of the clicked tube-ends (find_start_pose()) is refined on all that the window
+/// shows until it settles; half of what should be there must be, and each click must lie within the
+/// bore of the very tube that it was given the address of. `seen` is fitted on kNone only.
+template <Scalar S>
+[[nodiscard]] StartRefusal find_confirmed_start(const TrackingModel<S>& model,
+                                                const FieldView& field,
+                                                const StartClickList& clicks,
+                                                SheetObserver<S>& observer, Observation<S>& seen);
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,136 @@
+#include "core/tracking/sheet_observer.h"
+
+#include <algorithm>
+
+#include "core/base/constant.h"
+#include "core/base/instantiate.h"
+#include "core/tracking/picture_light.h"
+#include "core/tracking/plane_length.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+// How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
+template <typename M>
+M bisected_mm() {
+  return constant<M>(0.5);
+}
+
+// Lean 0.5 degrees always; turn 0.1 degrees and height 0.5 mm from field to field, once a motion
+// predicts them: kEdgeDeviation^2 / sigma^2.
+template <Scalar S>
+PosePrior<S> prior_of(const Expectation<S>& expected) {
+  PosePrior<S> prior;
+  prior.lean_weight = constant<Mm<S>>(0.032);
+  if (expected.from_motion) {
+    prior.turn_weight = constant<Mm<S>>(0.8);
+    prior.height_weight = constant<Mm<S>>(0.16);
+  }
+  return prior;
+}
+
+}  // namespace
+
+template <Scalar S>
+void SheetObserver<S>::begin() {
+  record_.plugs.clear();
+  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
+  record_.light.region_threshold = model_->region_threshold;
+}
+
+template <Scalar S>
+Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectation<S>& expected) {
+  using M = Mm<S>;
+  Observation<S> seen;
+  seen.pose = expected.pose;
+  const auto light = judge_light(field, model_->window);
+  if (light != PictureLight::kUsable) {
+    seen.trouble = light == PictureLight::kDark ? Reason::kDark : Reason::kWashedOut;
+    return seen;
+  }
+  // There is light and no tube-end where they must be: no reason to wait for a better picture.
+  const auto no_tubes = [&seen] {
+    seen.trouble = Reason::kNoTubes;
+    seen.contradiction = true;
+    return seen;
+  };
+  list_candidates<S>(*model_, *map_, seen.pose, candidates_);
+  // Pixels per mm at the anchor, in the middle of the view: f / z.
+  const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, seen.pose.origin.z);
+  std::int32_t range_px = 3 + to_scaled(times(expected.reach_mm, px_per_mm), 0);
+  constexpr std::int32_t kWidestRangePx = 9;
+  if (range_px > kWidestRangePx) {
+    if (!shift_onto_dark_regions<S>(*model_, field, candidates_,
+                                    expected.reach_mm + bisected_mm<M>(), record_.light,
+                                    seen.pose)) {
+      return no_tubes();
+    }
+    list_candidates<S>(*model_, *map_, seen.pose, candidates_);
+    range_px = 6;
+  }
+  const FindingCount found = measure(field, range_px, prior_of<S>(expected), seen);
+  // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
+  seen.contradiction = found.bright > std::max(seen.fit.used, 2) ||
+                       (expected.confirm_all && 2 * found.measured < found.looked_at);
+  if (!seen.fit.solved || seen.fit.used < 2) {
+    return no_tubes();
+  }
+  const auto tool = find_tool_point<S>(*model_, seen.pose);
+  if (!tool) {
+    return no_tubes();
+  }
+  seen.tool = *tool;
+  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
+  // of a rim point's fit is known to some 0.125 px then.
+  const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));
+  seen.picture_deviation_mm = times(tool_point_deviation<S>(seen.pose, *tool, equations_), excess);
+  // Independent of each other: sqrt(picture^2 + systematic^2).
+  seen.deviation_mm =
+      plane_length(Vector2<M>{seen.picture_deviation_mm, systematic_deviation_mm<M>()});
+  seen.fitted = true;
+  return seen;
+}
+
+// Looks around the predicted rims as far as the prediction may be off for the nearest few tube-ends
+// only; they tell the motion, and the others are looked for closely.
+template <Scalar S>
+FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t range_px,
+                                       const PosePrior<S>& prior, Observation<S>& seen) {
+  constexpr std::int32_t kScouts = 6;
+  constexpr std::int32_t kCloseRangePx = 3;
+  record_.begin_field();
+  FindingCount found;
+  if (range_px > kCloseRangePx) {
+    found = measure_field<S>(*model_, field, seen.pose, candidates_,
+                             {0, candidates_.size(), range_px, kScouts}, record_);
+    seen.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, seen.pose);
+    if (!seen.fit.solved) {
+      return found;
+    }
+  }
+  found += measure_field<S>(*model_, field, seen.pose, candidates_,
+                            {found.next, candidates_.size(), kCloseRangePx}, record_);
+  seen.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, seen.pose);
+  return found;
+}
+
+template <Scalar S>
+Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectation<S>& expected) {
+  // What is learnt of light and plugs is learnt from pictures that are believed.
+  const LightLevels light = record_.light;
+  const PlugMemory plugs = record_.plugs;
+  const Observation<S> seen = observe(field, expected);
+  record_.light = light;
+  record_.plugs = plugs;
+  return seen;
+}
+
+template <Scalar S>
+StartRefusal SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
+                                          SheetPose<S>& pose) {
+  return find_start_pose<S>(*model_, *map_, field, clicks, record_.light, pose);
+}
+
+TUBESIGHT_INSTANTIATE_CLASS(SheetObserver)
+
+}  // namespace tubesight::core::tracking

@@ -1,0 +1,82 @@
+#include "core/tracking/confirmed_start.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/tracking/tracking_test_support.h"
+
+namespace tubesight::core::tracking {
+namespace {
+
+template <typename S>
+class ConfirmedStart : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    tests::make_synthetic_settings(*scene_.settings, 2);
+    scene_.make();
+    sheet_ = std::make_unique<SyntheticSheet>(*scene_.settings);
+    observer_ = std::make_unique<SheetObserver<S>>(scene_.model, *scene_.map);
+    observer_->begin();
+  }
+  /// Clicks on three tubes, each said to be that at the same place of `told`.
+  StartRefusal start(const std::vector<TubeAddress>& told) {
+    const std::vector<TubeAddress> clicked{{20, 10}, {21, 10}, {20, 11}};
+    StartClickList clicks;
+    for (std::size_t i = 0; i < clicked.size(); ++i) {
+      const auto at = sheet_->image_of(kOverTube, clicked[i]);
+      const ImagePoint point = make_image_point({at[0] + 3.0, at[1] - 2.0});
+      EXPECT_TRUE(clicks.try_push_back({told[i], point.u_q16, point.v_q16}));
+    }
+    sheet_->draw(kOverTube, Parity::kEven, 1, frame_);
+    return find_confirmed_start<S>(scene_.model, sheet_->view(frame_, Parity::kEven), clicks,
+                                   *observer_, seen_);
+  }
+
+  Scene<S> scene_;
+  std::unique_ptr<SyntheticSheet> sheet_;
+  std::unique_ptr<SheetObserver<S>> observer_;
+  Frame frame_;
+  Observation<S> seen_{};
+};
+TYPED_TEST_SUITE(ConfirmedStart, Scalars);
+
+TYPED_TEST(ConfirmedStart, RefinesTheClicksOnTheWholeWindow) {
+  ASSERT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
+  ASSERT_TRUE(this->seen_.fitted);
+  EXPECT_GE(this->seen_.fit.used, 3);
+  const auto axis = this->sheet_->axis_point(kOverTube);
+  const auto center = this->sheet_->center_of(this->seen_.pose.anchor);
+  EXPECT_LT(distance(this->seen_.tool.local, {axis[0] - center[0], axis[1] - center[1]}), 0.3);
+}
+
+TYPED_TEST(ConfirmedStart, IsRefusedWhenOneAddressIsAnother) {
+  for (const TubeAddress wrong : {TubeAddress{20, 12}, {21, 11}, {19, 11}}) {
+    EXPECT_NE(this->start({{20, 10}, {21, 10}, wrong}), StartRefusal::kNone)
+        << wrong.row << ", " << wrong.column;
+  }
+}
+
+TYPED_TEST(ConfirmedStart, IsRefusedWhenTheWindowShowsSheetWhereTubeEndsShouldBe) {
+  auto& plugs = this->sheet_->look.flush_plugs;
+  for (std::int32_t row = 15; row <= 25; ++row) {
+    for (std::int32_t column = 5; column <= 15; ++column) {
+      const bool clicked =
+          (row == 20 && column <= 11 && column >= 10) || (row == 21 && column == 10);
+      if (!clicked) {
+        plugs.push_back({row, column});
+      }
+    }
+  }
+  EXPECT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kPicture);
+}
+
+TYPED_TEST(ConfirmedStart, TellsWhatTheRoughStartRefused) {
+  EXPECT_EQ(this->start({{20, 10}, {21, 10}, {900, 11}}), StartRefusal::kAddresses);
+  this->sheet_->look.gain = 0.0;
+  this->sheet_->look.offset = 4.0;
+  EXPECT_NE(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
+}
+
+}  // namespace
+}  // namespace tubesight::core::tracking
