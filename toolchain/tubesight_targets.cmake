@@ -20,7 +20,8 @@
 #                      [TIMEOUT seconds])
 #
 #     One GoogleTest program with GoogleTest's own main; each TEST becomes a ctest entry, found when
-#     ctest runs. Label `native` keeps it out of the emulated arm64 run.
+#     ctest runs, or the program is one entry (TUBESIGHT_WHOLE_PROGRAMS: where starting it costs).
+#     Label `native` keeps it out of the emulated arm64 run, `long` out of all but `./test.sh long`.
 #
 #   Tests may use two definitions: TUBESIGHT_TEST_DATA_DIR (tests/data) and TUBESIGHT_SOURCE_DIR.
 #
@@ -264,6 +265,32 @@ function(tubesight_add_test name)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
+  if(TUBESIGHT_WHOLE_PROGRAMS)
+    # Twelve times the time of one: a program has many tests.
+    math(EXPR timeout "12 * ${arg_TIMEOUT}")
+    tubesight_add_whole_program(${name} ${name} "${TUBESIGHT_TESTS_LEFT_OUT}")
+    set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT ${timeout})
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
     PROPERTIES ${properties})
+  # The same for `./test.sh quick`: one process a program, without what takes a second or more.
+  if(NOT arg_LABELS MATCHES "campaign|scenarios|statistics|long")
+    tubesight_add_whole_program(quick.${name} ${name} @${PROJECT_SOURCE_DIR}/tests/slow_tests.txt)
+    set_tests_properties(quick.${name} PROPERTIES LABELS quick)
+    set_property(GLOBAL APPEND PROPERTY TUBESIGHT_QUICK_PROGRAMS ${name})
+  endif()
+endfunction()
+
+# tubesight_add_whole_program(<name of the test> <program> <regular expression or @file of them>) runs
+# a program once with all its tests but those named. scripts/ctest_summary.py counts them one by one.
+function(tubesight_add_whole_program name program left_out)
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME ${name}
+    COMMAND Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
+      --results ${PROJECT_BINARY_DIR}/results/${name}.xml --leave-out "${left_out}" --
+      ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${program}>)
+  get_target_property(sources ${program} SOURCES)
+  list(LENGTH sources number)
+  set_tests_properties(${name} PROPERTIES COST ${number})
 endfunction()
