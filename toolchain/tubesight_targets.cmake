@@ -20,7 +20,8 @@
 #                      [TIMEOUT seconds])
 #
 #     One GoogleTest program with GoogleTest's own main; each TEST becomes a ctest entry, found when
-#     ctest runs. Label `native` keeps it out of the emulated arm64 run.
+#     ctest runs, or the program is one entry (TUBESIGHT_WHOLE_PROGRAMS: where starting it costs).
+#     Label `native` keeps it out of the emulated arm64 run, `long` out of all but `./test.sh long`.
 #
 #   Tests may use two definitions: TUBESIGHT_TEST_DATA_DIR (tests/data) and TUBESIGHT_SOURCE_DIR.
 #
@@ -28,6 +29,66 @@
 
 include_guard(GLOBAL)
 include(GoogleTest)
+
+# tubesight_join_sources(target) lets several sources of a target be compiled as one, where
+# TUBESIGHT_JOIN_SOURCES says so for its kind. What parses and is not compiled again is most of the
+# time: half of a build and more. join_sources.py says which sources may stand together.
+function(tubesight_join_sources target)
+  get_target_property(sources ${target} SOURCES)
+  set(absolute)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "\\.cpp$")
+      get_target_property(folder ${target} SOURCE_DIR)
+      cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${folder} NORMALIZE)
+      list(APPEND absolute ${source})
+    endif()
+  endforeach()
+  string(REPLACE ";" "\\;" absolute "${absolute}")
+  set_property(GLOBAL APPEND PROPERTY TUBESIGHT_JOINED_SOURCES "${target}\t${absolute}")
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endfunction()
+
+# When all targets are known.
+function(tubesight_write_joined_sources)
+  get_property(lines GLOBAL PROPERTY TUBESIGHT_JOINED_SOURCES)
+  if(NOT lines)
+    return()
+  endif()
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  set(text)
+  foreach(line IN LISTS lines)
+    string(APPEND text "${line}\n")
+  endforeach()
+  set(list ${PROJECT_BINARY_DIR}/joined_sources.txt)
+  file(WRITE ${list} "${text}")
+  execute_process(
+    COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/toolchain/join_sources.py
+      ${PROJECT_SOURCE_DIR} ${list} ${PROJECT_BINARY_DIR}/joined_sources.cmake
+    COMMAND_ERROR_IS_FATAL ANY)
+  include(${PROJECT_BINARY_DIR}/joined_sources.cmake)
+endfunction()
+if(TUBESIGHT_JOIN_SOURCES)
+  cmake_language(DEFER DIRECTORY ${PROJECT_SOURCE_DIR} CALL tubesight_write_joined_sources)
+endif()
+
+# The compiler's answers are kept from one build to the next where ccache is at hand; not those that
+# come with a second file (-fcallgraph-info) or with a precompiled header: ccache would lose them.
+set(tubesight_launcher)
+if(TUBESIGHT_USE_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(TUBESIGHT_CCACHE ccache)
+  if(TUBESIGHT_CCACHE)
+    set(tubesight_launcher ${TUBESIGHT_CCACHE})
+  endif()
+endif()
+
+# Some fifty programs are linked again after a change of core/base: mold does it in a quarter of the
+# time, where it is installed. Only for the machine at hand.
+if(TUBESIGHT_USE_MOLD AND NOT CMAKE_CROSSCOMPILING)
+  find_program(TUBESIGHT_MOLD mold)
+  if(TUBESIGHT_MOLD)
+    add_link_options(-fuse-ld=mold)
+  endif()
+endif()
 
 define_property(GLOBAL PROPERTY TUBESIGHT_TRACKING_PATH_TARGETS
   BRIEF_DOCS "Libraries that lie on the path field -> sighting -> reply")
@@ -69,6 +130,34 @@ if(CMAKE_BUILD_TYPE MATCHES "^Rel" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(tubesight_tracking_path_options -Wframe-larger-than=4096 -fcallgraph-info=su)
 endif()
 
+# Each header must compile alone. One that a source of its name includes before anything else has been
+# compiled alone with that source, so long as sources are not joined; the target
+# all_verify_interface_header_sets compiles the others.
+function(tubesight_verify_headers target scope headers sources)
+  if(TUBESIGHT_VERIFY_EVERY_HEADER OR "product" IN_LIST TUBESIGHT_JOIN_SOURCES)
+    return()
+  endif()
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set(alone)
+  foreach(header IN LISTS headers)
+    string(REGEX REPLACE "\\.h$" ".cpp" source ${header})
+    set(first)
+    if(source IN_LIST sources)
+      file(STRINGS ${source} first REGEX "^ *# *include" LIMIT_COUNT 1)
+    endif()
+    if(NOT first STREQUAL "#include \"${folder}/${header}\"")
+      list(APPEND alone ${header})
+    endif()
+  endforeach()
+  if(alone)
+    target_sources(${target} ${scope}
+      FILE_SET alone TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${alone})
+    set_target_properties(${target} PROPERTIES INTERFACE_HEADER_SETS_TO_VERIFY alone)
+  else()
+    set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS OFF)
+  endif()
+endfunction()
+
 function(tubesight_add_library path)
   cmake_parse_arguments(PARSE_ARGV 1 arg "TRACKING_PATH;NO_HEAP" ""
     "SOURCES;HEADERS;LINKS;PRIVATE_LINKS")
@@ -96,6 +185,15 @@ function(tubesight_add_library path)
   if(arg_HEADERS)
     target_sources(${target} ${scope}
       FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
+    tubesight_verify_headers(${target} ${scope} "${arg_HEADERS}" "${arg_SOURCES}")
+  endif()
+  if(arg_SOURCES)
+    if("product" IN_LIST TUBESIGHT_JOIN_SOURCES)
+      tubesight_join_sources(${target})
+    endif()
+    if(tubesight_launcher AND NOT arg_TRACKING_PATH)
+      set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
+    endif()
   endif()
 
   if(arg_NO_HEAP AND arg_SOURCES)
@@ -150,6 +248,11 @@ function(tubesight_add_test name)
     target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
     target_compile_options(${name} PRIVATE -Wno-array-bounds)
+  elseif(tubesight_launcher)
+    set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
+  endif()
+  if("tests" IN_LIST TUBESIGHT_JOIN_SOURCES)
+    tubesight_join_sources(${name})
   endif()
   target_compile_definitions(${name} PRIVATE
     TUBESIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -162,6 +265,32 @@ function(tubesight_add_test name)
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
+  if(TUBESIGHT_WHOLE_PROGRAMS)
+    # Twelve times the time of one: a program has many tests.
+    math(EXPR timeout "12 * ${arg_TIMEOUT}")
+    tubesight_add_whole_program(${name} ${name} "${TUBESIGHT_TESTS_LEFT_OUT}")
+    set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT ${timeout})
+    return()
+  endif()
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 NO_PRETTY_VALUES
     PROPERTIES ${properties})
+  # The same for `./test.sh quick`: one process a program, without what takes a second or more.
+  if(NOT arg_LABELS MATCHES "campaign|scenarios|statistics|long")
+    tubesight_add_whole_program(quick.${name} ${name} @${PROJECT_SOURCE_DIR}/tests/slow_tests.txt)
+    set_tests_properties(quick.${name} PROPERTIES LABELS quick)
+    set_property(GLOBAL APPEND PROPERTY TUBESIGHT_QUICK_PROGRAMS ${name})
+  endif()
+endfunction()
+
+# tubesight_add_whole_program(<name of the test> <program> <regular expression or @file of them>) runs
+# a program once with all its tests but those named. scripts/ctest_summary.py counts them one by one.
+function(tubesight_add_whole_program name program left_out)
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME ${name}
+    COMMAND Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
+      --results ${PROJECT_BINARY_DIR}/results/${name}.xml --leave-out "${left_out}" --
+      ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${program}>)
+  get_target_property(sources ${program} SOURCES)
+  list(LENGTH sources number)
+  set_tests_properties(${name} PROPERTIES COST ${number})
 endfunction()

@@ -1,4 +1,5 @@
-// How fast the tool may move: `speed_sweep [--moves N] [--plot FILE.png]`, for docs/performance.md.
+// How fast the tool may move: `speed_sweep [--moves N] [--sheets N] [--plot FILE.png]`, for
+// docs/performance.md. With --sheets only the first N tubesheets, for a look that takes seconds.
 //
 // Straight moves over drawn sheets with plugs and voids, from rest to rest, at growing speed and
 // acceleration, with cameras mounted both ways. Prints Markdown tables; the same numbers every time
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -211,7 +213,7 @@ struct Tally {
 
 class Sweep {
  public:
-  explicit Sweep(int moves) : moves_(moves) {}
+  Sweep(int moves, std::size_t sheets) : moves_(moves), sheets_(std::span(kSheets).first(sheets)) {}
 
   Tally run(const Case& what) {
     Tally tally;
@@ -247,9 +249,11 @@ class Sweep {
   [[nodiscard]] bool ok() const { return ok_; }
   [[nodiscard]] long long fields() const { return fields_; }
   [[nodiscard]] int moves() const { return moves_; }
+  [[nodiscard]] std::span<const Sheet> sheets() const { return sheets_; }
 
  private:
   int moves_;
+  std::span<const Sheet> sheets_;
   MoveRunner runner_;
   std::unique_ptr<Scenario> scenario_ = std::make_unique<Scenario>();
   std::int64_t cases_ = 0;
@@ -297,8 +301,8 @@ std::string with_unit(double value, const char* unit) {
 // [motion] tells what the robot does.
 Panel sweep_accelerations(Sweep& sweep) {
   Panel panel{"0.5 ms of exposure", "acceleration, m/s2", "fastest followed, mm/s", {}};
-  for (std::size_t s = 0; s < kSheets.size(); ++s) {
-    const Sheet& sheet = kSheets.at(s);
+  for (std::size_t s = 0; s < sweep.sheets().size(); ++s) {
+    const Sheet& sheet = sweep.sheets()[s];
     Series series{sheet.name, kColours.at(s), {}};
     print_head(sweep, sheet.name);
     for (const double acceleration : kAccelerations_mm_s2) {
@@ -316,8 +320,8 @@ Panel sweep_accelerations(Sweep& sweep) {
 // What a longer exposure smears; `shortest` has the curves' first points, from the accelerations.
 Panel sweep_exposures(Sweep& sweep, const Panel& shortest) {
   Panel panel{"12 m/s2", "exposure, ms", "fastest followed, mm/s", {}};
-  for (std::size_t s = 0; s < kSheets.size(); ++s) {
-    const Sheet& sheet = kSheets.at(s);
+  for (std::size_t s = 0; s < sweep.sheets().size(); ++s) {
+    const Sheet& sheet = sweep.sheets()[s];
     Series series{sheet.name, kColours.at(s), {}};
     for (const auto& point : shortest.series.at(s).points) {
       if (point[0] * 1000.0 == kStrong_mm_s2) {
@@ -342,7 +346,7 @@ void sweep_beyond_limits(Sweep& sweep) {
   std::printf("\nFaster than [motion] says (300 mm/s, 3000 mm/s2), moves followed of %d:\n\n",
               sweep.moves());
   std::printf("| sheet, mm/s | 300 | 450 | 600 | 900 | 1500 |\n|---|---|---|---|---|---|\n");
-  for (const Sheet& sheet : kSheets) {
+  for (const Sheet& sheet : sweep.sheets()) {
     for (const double acceleration : {3000.0, 12000.0, 48000.0}) {
       std::printf("| %s, %.0f mm/s2 |", sheet.name, acceleration);
       for (const double speed : {300.0, 450.0, 600.0, 900.0, 1500.0}) {
@@ -353,8 +357,8 @@ void sweep_beyond_limits(Sweep& sweep) {
   }
 }
 
-int run(int moves, const std::string& plot) {
-  Sweep sweep(moves);
+int run(int moves, std::size_t sheets, const std::string& plot) {
+  Sweep sweep(moves, sheets);
   const Panel accelerations = sweep_accelerations(sweep);
   const std::vector<Panel> panels{accelerations, sweep_exposures(sweep, accelerations)};
   sweep_beyond_limits(sweep);
@@ -372,20 +376,23 @@ int run(int moves, const std::string& plot) {
 
 int main(int argc, char** argv) {
   int moves = 8;
+  std::size_t sheets = tubesight::benchmark::kSheets.size();
   std::string plot;
   for (int i = 1; i + 1 < argc; i += 2) {
     const std::string option = argv[i];
     if (option == "--moves") {
       moves = std::atoi(argv[i + 1]);
+    } else if (option == "--sheets") {
+      sheets = static_cast<std::size_t>(std::atoi(argv[i + 1]));
     } else if (option == "--plot") {
       plot = argv[i + 1];
     } else {
       moves = 0;
     }
   }
-  if (argc % 2 == 0 || moves < 1) {
-    std::fprintf(stderr, "usage: speed_sweep [--moves N] [--plot FILE.png]\n");
+  if (argc % 2 == 0 || moves < 1 || sheets < 1 || sheets > tubesight::benchmark::kSheets.size()) {
+    std::fprintf(stderr, "usage: speed_sweep [--moves N] [--sheets N] [--plot FILE.png]\n");
     return 2;
   }
-  return tubesight::benchmark::run(moves, plot);
+  return tubesight::benchmark::run(moves, sheets, plot);
 }
