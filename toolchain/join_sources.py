@@ -7,9 +7,10 @@ Usage: join_sources.py ROOT LIST OUT.cmake
 LIST has a line a target: its name, a tab, its sources, divided by ';'. OUT.cmake sets UNITY_GROUP.
 
 One file after the other in one compilation, two helpers of one name in anonymous namespaces would
-clash, and a helper with what another file's headers declare. Nobody is to rename a helper for that:
-the names are read here (as clang-format leaves them: declarations begin in column 0), and files that
-share one are put into different groups. It errs on the safe side: a group too many costs seconds.
+clash, and a helper with what another file's headers declare or what another file calls by that name.
+Nobody is to rename a helper for that: the names are read here (as clang-format leaves them:
+declarations begin in column 0), and files are put into different groups where one's helper has a name
+that stands anywhere in the other. It errs on the safe side: a group too many costs seconds.
 """
 import pathlib
 import re
@@ -23,6 +24,8 @@ KIND = re.compile(r"^(?:struct|class|union|enum(?: class| struct)?)\s+(?:\[\[.*?
 ALIAS = re.compile(r"^using (\w+) =")
 DEFINE = re.compile(r"^#\s*define (\w+)")
 DECLARED = re.compile(r"([\w:~]+)\s*(?:[({=;]|\[)")
+WORD = re.compile(r"\b[A-Za-z_]\w*")
+COMMENT = re.compile(r"//.*")
 ENUM = re.compile(r"^enum (?!class|struct)[^{;]*\{([^}]*)\}", re.M)
 
 
@@ -98,10 +101,11 @@ def groups_of(files, sources):
     for source in sources:
         text, hidden, shown, defined = files.read(source)
         lines = text.count("\n")
+        words = set(WORD.findall(COMMENT.sub("", text)))
         for group in groups:
             if len(group["sources"]) >= MOST_SOURCES or group["lines"] + lines > MOST_LINES:
                 continue
-            if hidden & group["hidden"]:
+            if hidden & group["words"] or group["hidden"] & words:
                 continue
             if hidden & (group["shown"] - shown) or group["hidden"] & (shown - group["shown"]):
                 continue
@@ -109,12 +113,13 @@ def groups_of(files, sources):
                 continue
             break
         else:
-            group = {"sources": [], "lines": 0, "hidden": set(), "shown": set(),
+            group = {"sources": [], "lines": 0, "hidden": set(), "words": set(), "shown": set(),
                      "defined": {}}
             groups.append(group)
         group["sources"].append(source)
         group["lines"] += lines
         group["hidden"] |= hidden
+        group["words"] |= words
         group["shown"] |= shown
         group["defined"] |= defined
     return [group["sources"] for group in groups]
@@ -154,12 +159,14 @@ PLANTED = {
     "other_row.cpp": '#include "other_row.h"\nint other_rows() {\n}\n',
     "other_row.h": "#pragma once\nnamespace n {\nusing Row = int;\n}\n",
     "a.h": "#pragma once\nnamespace n {\nint f();\n}\n",
+    "caller.cpp": "#include \"a.h\"\nnamespace n {\nvoid h() {\n  rounded(1);\n}\n}\n",
     "free.cpp": '#include "a.h"\nnamespace n {\nvoid A::rounded() {\n}\nint g() {\n}\n}\n',
 }
 APART = [("a.cpp", "same_helper.cpp"), ("same_constant.cpp", "constant.cpp"),
          ("constant.cpp", "enumerator.cpp"), ("alias.cpp", "header_user.cpp"),
-         ("other_row.cpp", "header_user.cpp")]
-TOGETHER = [("a.cpp", "free.cpp"), ("a.cpp", "alias.cpp"), ("same_helper.cpp", "constant.cpp")]
+         ("other_row.cpp", "header_user.cpp"), ("a.cpp", "caller.cpp")]
+TOGETHER = [("a.cpp", "alias.cpp"), ("same_helper.cpp", "constant.cpp"),
+            ("header_user.cpp", "free.cpp")]
 
 
 def self_test():
