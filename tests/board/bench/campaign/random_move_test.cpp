@@ -35,7 +35,8 @@ TEST_F(RandomMove, IsTheSameWhateverWasDrawnBefore) {
 }
 
 // Progress of two designs must not be put together. A change of what is drawn changes the digest:
-// give kDesign a new name then, and write both here. FNV-1a, worked out with another program.
+// give kDesign a new name then, and write both here. FNV-1a. Since the text holds every key it is
+// another digest of the same moves: of the 96 texts nothing but the added lines differs.
 TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
   std::uint64_t digest = 14695981039346656037ULL;
   for (std::int64_t move = 0; move < kStrata; ++move) {
@@ -44,7 +45,7 @@ TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
     }
   }
   EXPECT_EQ(std::string(kDesign), "design-3");
-  EXPECT_EQ(digest, 0x2d32ad6ec4f523d1ULL);
+  EXPECT_EQ(digest, 0x029b804ec3aa4e35ULL);
 }
 
 TEST_F(RandomMove, IsOfItsStratum) {
