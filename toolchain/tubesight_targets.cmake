@@ -247,14 +247,16 @@ function(tubesight_add_test name)
   if(TUBESIGHT_PRECOMPILE_TEST_HEADERS)
     target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
-    target_compile_options(${name} PRIVATE -Wno-array-bounds)
+    target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
   elseif(tubesight_launcher)
     set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
   endif()
   if("tests" IN_LIST TUBESIGHT_JOIN_SOURCES)
     tubesight_join_sources(${name})
   endif()
+  target_compile_options(${name} PRIVATE ${TUBESIGHT_TEST_OPTIONS})
   target_compile_definitions(${name} PRIVATE
+    $<$<BOOL:${TUBESIGHT_TESTS_FIXED_ONLY}>:TUBESIGHT_TESTS_FIXED_ONLY>
     TUBESIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     TUBESIGHT_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data")
   foreach(source IN LISTS arg_SOURCES)

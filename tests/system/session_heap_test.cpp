@@ -13,6 +13,7 @@
 #include "drivers/replay/replay_frame_grabber.h"
 #include "drivers/settings/session_settings.h"
 #include "tests/support/heap_guard.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::tests {
 namespace {
@@ -26,7 +27,7 @@ constexpr const char* kFolder = TUBESIGHT_TEST_DATA_DIR "/recordings/square_flus
 template <typename S>
 class SessionHeap : public ::testing::Test {};
 
-using Scalars = ::testing::Types<core::FixedPoint, float, double>;
+using tests::Scalars;
 TYPED_TEST_SUITE(SessionHeap, Scalars);
 
 TYPED_TEST(SessionHeap, IsNotTouchedByAStep) {

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scalars.h"
+
 namespace tubesight::core {
 namespace {
 
 template <typename S>
 class ConstantOf : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(ConstantOf, Scalars);
 
 TYPED_TEST(ConstantOf, IsTheNearestMultipleOfASmallStepInEveryArithmetic) {

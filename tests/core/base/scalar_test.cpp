@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/vector3.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core {
 namespace {
@@ -18,7 +19,7 @@ class ScalarTest : public ::testing::Test {
   void TearDown() override { EXPECT_FALSE(take_overflow_flag()); }
 };
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(ScalarTest, Scalars);
 
 // All expected values below are exact in every format, so that no bound is needed.

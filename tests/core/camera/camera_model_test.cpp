@@ -8,6 +8,7 @@
 
 #include "core/camera/camera_setup.h"
 #include "tests/core/camera/camera_test_support.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core::camera {
 namespace {
@@ -19,7 +20,7 @@ class CameraModelTest : public ::testing::Test {
   void TearDown() override { EXPECT_FALSE(take_overflow_flag()); }
 };
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(CameraModelTest, Scalars);
 
 // Numbers that make Eq. 4.5-4.9 easy by hand: a frame cell is 0.01 / 1.2 * 600 / 500 = 0.01 mm wide

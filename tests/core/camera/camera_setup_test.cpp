@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/camera/camera_test_support.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core::camera {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 template <typename S>
 class CameraSetupTest : public ::testing::Test {};
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(CameraSetupTest, Scalars);
 
 template <typename S>

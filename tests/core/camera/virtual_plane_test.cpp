@@ -7,6 +7,7 @@
 
 #include "core/camera/camera_setup.h"
 #include "tests/core/camera/camera_test_support.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core::camera {
 namespace {
@@ -20,7 +21,7 @@ class VirtualPlaneTest : public ::testing::Test {
   void TearDown() override { EXPECT_FALSE(take_overflow_flag()); }
 };
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(VirtualPlaneTest, Scalars);
 
 // Worst errors of the two directions; they stand in virtual_plane.h.

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/session/sheet_run.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core::session {
 namespace {
 
-using Scalars = ::testing::Types<FixedPoint, float, double>;
+using tests::Scalars;
 
 template <typename S>
 class Follow : public ::testing::Test {};

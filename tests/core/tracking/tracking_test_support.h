@@ -14,6 +14,7 @@
 #include "core/tracking/tracking_model.h"
 #include "core/tracking/tracking_setup.h"
 #include "core/tubesheet/sheet_map.h"
+#include "tests/support/scalars.h"
 #include "tests/support/synthetic_sheet.h"
 
 namespace tubesight::core::tracking {
@@ -22,7 +23,7 @@ using tests::Frame;
 using tests::SyntheticSheet;
 using tests::ToolPlace;
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 
 /// One bound for each kind of arithmetic.
 template <typename S>

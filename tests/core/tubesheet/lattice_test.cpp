@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/tubesheet/tubesheet_setup.h"
+#include "tests/support/scalars.h"
 
 namespace tubesight::core::tubesheet {
 namespace {
@@ -108,7 +109,7 @@ class LatticeTest : public ::testing::Test {
   void TearDown() override { EXPECT_FALSE(take_overflow_flag()); }
 };
 
-using Scalars = ::testing::Types<double, float, FixedPoint>;
+using tests::Scalars;
 TYPED_TEST_SUITE(LatticeTest, Scalars);
 
 constexpr double kBound_mm = 1e-4;
