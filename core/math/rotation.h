@@ -24,4 +24,9 @@ namespace tubesight::core::math {
 /// beta = +-90 degrees, where only their sum or difference shows, gamma is 0.
 [[nodiscard]] std::array<double, 3> angles_of(const Eigen::Matrix3d& rotation);
 
+/// The covariance of the angles alpha, beta, gamma of a rotation (rad) from that of its rotation
+/// vector in the outer frame, R_true = exp([theta]x) R. Not defined at beta = ±90 degrees.
+[[nodiscard]] Eigen::Matrix3d angle_covariance(const Eigen::Matrix3d& rotation,
+                                               const Eigen::Matrix3d& vector_covariance);
+
 }  // namespace tubesight::core::math

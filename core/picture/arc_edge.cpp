@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "core/math/cholesky.h"
 #include "core/math/gaussian_step.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::picture {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/base/result.h"
-#include "core/math/matrix.h"
+#include "core/math/small_matrix.h"
 #include "core/pose/pose_estimate.h"
 
 namespace tubesight::core::pose {

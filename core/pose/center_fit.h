@@ -5,7 +5,7 @@
 #include "core/base/transform.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/point_pair.h"
-#include "core/pose/pose_method.h"
+#include "core/pose/pose_kinds.h"
 #include "core/pose/pose_model.h"
 #include "core/pose/projected_center.h"
 #include "core/pose/rim_bundle.h"

@@ -6,8 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "core/math/cholesky.h"
-#include "core/math/symmetric_eigen.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -124,6 +123,7 @@ Matrix6 scatter_of(const Moments& m) {
   return scatter;
 }
 
+// Least squares of a x^2 + b x y + c y^2 + d x + e y = 1 [Fallon eq. 5.14].
 bool fit_linear(const Moments& m, Vector6& k) {
   const Matrix6 scatter = scatter_of(m);
   math::Cholesky<5> cholesky;
@@ -178,6 +178,9 @@ Matrix5 gradient_scatter(const Moments& m) {
   return g;
 }
 
+// The least of (mean of f^2) / (mean of |grad f|^2). The constant that suits the others best is
+// minus their mean, which leaves S' = S - s st; then S' k = lambda G k, with G = L Lt the least
+// eigenvalue of L^-1 S' L^-T.
 bool fit_taubin(const Moments& m, Vector6& k) {
   const Matrix6 scatter = scatter_of(m);
   const Vector5 constant = scatter.topRightCorner<5, 1>();
@@ -200,8 +203,9 @@ bool fit_taubin(const Moments& m, Vector6& k) {
   return true;
 }
 
-// Gauss-Newton on the sum of (f / |grad f|)^2, the gradient's own dependence included; the scale of
-// the coefficients is held by a row along them.
+// Gauss-Newton on the sum of e^2 with e = f / |grad f|, the gradient's own dependence included:
+//   de / dk = (df / dk - e d|grad f| / dk) / |grad f|
+// The scale of the coefficients is held by a row along them.
 bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part part, Vector6& k) {
   k.normalize();
   for (int round = 0; round < 6; ++round) {
@@ -272,7 +276,8 @@ bool fit_once(std::span<const PlanePoint> points, const Frame& frame, Part part,
   return is_ellipse(conic);
 }
 
-// The distance in the picture: the plane's gradient turned into one by pixels.
+// The distance in the picture to first order, f / |grad f|: f = pt C p, grad f = 2 C p on the
+// plane, turned into one by pixels.
 double distance_px(const Conic& conic, const PlanePoint& p) {
   const double gx = conic(0, 0) * p.x + conic(0, 1) * p.y + conic(0, 2);
   const double gy = conic(0, 1) * p.x + conic(1, 1) * p.y + conic(1, 2);

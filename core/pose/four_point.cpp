@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/math/cholesky.h"
+#include "core/math/small_matrix.h"
 #include "core/pose/three_point.h"
 
 namespace tubesight::core::pose {
@@ -23,7 +23,9 @@ struct Quadrangle {
   std::array<double, 6> sides_mm{};
 };
 
-// F_0 .. F_5 of [Fallon eq. 5.33-5.38] and their derivatives by the lengths.
+// F_0 .. F_5 of [Fallon eq. 5.33-5.38] and their derivatives by the lengths: with s = x_b r_b - x_a
+// r_a
+//   F_ab = |s| - d_ab,  dF_ab / dx_a = -s . r_a / |s|,  dF_ab / dx_b = s . r_b / |s|
 void errors_of(const Quadrangle& q, const Eigen::Vector4d& lengths, Eigen::Matrix<double, 6, 1>& F,
                Eigen::Matrix<double, 6, 4>& J) {
   J.setZero();
@@ -47,6 +49,7 @@ double objective_of(const Quadrangle& q, const Eigen::Vector4d& lengths) {
   return F.squaredNorm();
 }
 
+// Levenberg and Marquardt: (Jt J + damping diag(Jt J)) change = -Jt F.
 double minimise(const Quadrangle& q, Eigen::Vector4d& lengths) {
   double objective = objective_of(q, lengths);
   double damping = 1e-6;
@@ -89,6 +92,7 @@ bool start_of(const std::array<PointPair, 4>& pairs, const Quadrangle& q,
   double best = HUGE_VAL;
   for (const auto& t : kTriangles) {
     for (const auto& T : solve_three_points({pairs[t[0]], pairs[t[1]], pairs[t[2]]})) {
+      // A ray passes nearest to a point P at the length P . r.
       Eigen::Vector4d candidate;
       for (std::size_t i = 0; i < 4; ++i) {
         candidate(static_cast<Eigen::Index>(i)) = (T * pairs[i].object_mm).dot(q.rays[i]);

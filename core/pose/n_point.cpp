@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/math/cholesky.h"
 #include "core/math/rotation.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -29,6 +29,7 @@ struct Problem {
   double scale = 1.0;  // of the residuals, for outliers; below 0: all count alike
 };
 
+// Tukey's weight (1 - e^2 / c^2)^2 with c = outlier_sigmas times the scale; 0 beyond c.
 double robust_weight(const Problem& problem, double square) {
   if (problem.scale < 0.0) {
     return 1.0;
@@ -38,7 +39,8 @@ double robust_weight(const Problem& problem, double square) {
   return rest > 0.0 ? rest * rest : 0.0;
 }
 
-// Tukey's loss, whose derivative by the square is half the weight; the plain square without limit.
+// Tukey's loss c^2 / 3 (1 - (1 - e^2 / c^2)^3), whose derivative by e^2 is the weight; the plain
+// square without a limit.
 double robust_loss(const Problem& problem, double square) {
   if (problem.scale < 0.0) {
     return square;
@@ -69,6 +71,8 @@ double cost_of(const Problem& problem, const State& state) {
   return cost;
 }
 
+// Sums of w Jt J and w Jt e for e = f (x / z, y / z) - plane with (x, y, z) = R q + t: the focal
+// length's logarithm enters by de / d(log f) = f (x / z, y / z).
 void build(const Problem& problem, const State& state, Matrix7& normal, Vector7& moment) {
   normal.setZero();
   moment.setZero();
@@ -98,6 +102,7 @@ void build(const Problem& problem, const State& state, Matrix7& normal, Vector7&
   }
 }
 
+// R <- exp([theta]x) R, t <- t + tau, log f <- log f + its step.
 State moved(const State& state, const Vector7& step) {
   State next;
   next.T = {math::exp_rotation(step.segment<3>(3)) * state.T.rotation(),
@@ -204,6 +209,7 @@ PointProjection project_point(const CameraSheet& T, const Eigen::Vector3d& point
   const double inverse = 1.0 / p.z();
   PointProjection result;
   result.plane = p.head<2>() * inverse;
+  // With P = R q + t: d(x / z) / dP = (1, 0, -x / z) / z, dP / dtau = I, dP / dtheta = -[R q]x.
   Eigen::Matrix<double, 2, 3> by_point;
   by_point << inverse, 0.0, -result.plane.x() * inverse, 0.0, inverse, -result.plane.y() * inverse;
   result.by_pose.leftCols<3>() = by_point;

@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "core/base/transform.h"
-#include "core/math/matrix.h"
+#include "core/math/small_matrix.h"
 #include "core/pose/point_pair.h"
 
 namespace tubesight::core::pose {

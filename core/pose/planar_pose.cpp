@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/math/cholesky.h"
 #include "core/math/rotation.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -53,13 +53,17 @@ std::array<Eigen::Matrix3d, 2> rotations_of(const Eigen::Matrix2d& J, const Eige
   line_of_sight << 1.0, 0.0, -v.x(), 0.0, 1.0, -v.y();
   const Eigen::Matrix2d B = line_of_sight * R_v.leftCols<2>();
   const Eigen::Matrix2d A = B.inverse() * J;
-  // The greater singular value of A: the scale of what is not foreshortened.
+  // A is a multiple of the upper left block of the rotation left of R_v. The greater singular value
+  // of A is that multiple: the scale of what is not foreshortened; its square is the greater
+  // eigenvalue of A At = [p q; q r], (p + r + sqrt((p - r)^2 + 4 q^2)) / 2.
   const Eigen::Matrix2d square = A * A.transpose();
   const double difference = square(0, 0) - square(1, 1);
   const double largest2 =
       0.5 *
       (square.trace() + std::sqrt(difference * difference + 4.0 * square(0, 1) * square(0, 1)));
   const Eigen::Matrix2d upper = A / std::sqrt(largest2);
+  // Columns of a rotation are of length 1: what the block U lacks is the lower row b,
+  // b bt = I - Ut U, whose sign the picture leaves open.
   const Eigen::Matrix2d rest = Eigen::Matrix2d::Identity() - upper.transpose() * upper;
   const double b0 = std::sqrt(std::max(rest(0, 0), 0.0));
   const double b1 = std::sqrt(std::max(rest(1, 1), 0.0));
@@ -103,6 +107,7 @@ Result<Homography> fit_homography(std::span<const PointPair> pairs) {
   using Vector8 = Eigen::Matrix<double, 8, 1>;
   Matrix8 normal = Matrix8::Zero();
   Vector8 moment = Vector8::Zero();
+  // p_x (h_6 q_x + h_7 q_y + 1) = h_0 q_x + h_1 q_y + h_2, and p_y with h_3, h_4, h_5: linear in h.
   for (const PointPair& pair : pairs) {
     const Eigen::Vector2d q = (pair.object_mm.head<2>() - object.mean) * object.scale;
     const Eigen::Vector2d p = (pair.plane - image.mean) * image.scale;
@@ -152,6 +157,8 @@ Result<PlanarPoses> planar_poses(std::span<const PointPair> pairs) {
   if (!homography) {
     return Unexpected(homography.error());
   }
+  // At q = 0 the homography gives the point v = (H_02, H_12) and the derivatives
+  // J_ij = H_ij - v_i H_2j.
   const Eigen::Matrix3d& H = homography->matrix;
   const Eigen::Vector2d v = H.topRightCorner<2, 1>();
   const Eigen::Matrix2d J = H.topLeftCorner<2, 2>() - v * H.bottomLeftCorner<1, 2>();

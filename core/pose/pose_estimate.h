@@ -5,13 +5,12 @@
 
 #include "core/base/static_vector.h"
 #include "core/base/transform.h"
-#include "core/math/matrix.h"
+#include "core/math/small_matrix.h"
 #include "core/picture/rim.h"
 #include "core/pose/center_fit.h"
 #include "core/pose/plane_points.h"
-#include "core/pose/pose_method.h"
+#include "core/pose/pose_kinds.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/pose_refusal.h"
 #include "core/pose/pose_seed.h"
 #include "core/pose/rim_bundle.h"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/math/angle_covariance.h"
 #include "core/math/rotation.h"
 
 namespace tubesight::core::pose {

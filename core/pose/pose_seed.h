@@ -7,8 +7,8 @@
 #include "core/pose/planar_pose.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/point_pair.h"
+#include "core/pose/pose_kinds.h"
 #include "core/pose/pose_model.h"
-#include "core/pose/pose_refusal.h"
 #include "core/pose/projected_center.h"
 
 namespace tubesight::core::pose {

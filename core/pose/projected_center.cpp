@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "core/math/symmetric_eigen.h"
+#include "core/math/small_matrix.h"
 #include "core/pose/bitangent.h"
 
 namespace tubesight::core::pose {

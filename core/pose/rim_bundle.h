@@ -5,12 +5,11 @@
 
 #include "core/base/sighting.h"
 #include "core/base/transform.h"
-#include "core/math/matrix.h"
+#include "core/math/small_matrix.h"
 #include "core/picture/rim.h"
 #include "core/pose/plane_points.h"
 #include "core/pose/pose_model.h"
 #include "core/pose/rim_equations.h"
-#include "core/pose/rim_options.h"
 
 namespace tubesight::core::pose {
 

@@ -6,8 +6,8 @@
 
 #include <Eigen/LU>
 
-#include "core/math/cholesky.h"
 #include "core/math/rotation.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::pose {
 namespace {
@@ -41,6 +41,9 @@ struct Terms {
   std::array<double, 7> row{};
 };
 
+// The residual is the distance of q, where the ray from the camera's origin o meets the sheet, from
+// the rim, in pixels: (|q - c| - r) / g - b, with q = o - (o_z / ray_z) ray and g the length of the
+// gradient of |q - c| by the pixel (u, v).
 Terms terms_of(const RimProblem& problem, const Sight& sight, const RimState& rim,
                const Eigen::Vector2d& center, const PlanePoint& p) {
   const Eigen::Matrix3d& R = sight.R_sheet_camera;
@@ -95,6 +98,9 @@ SharedMatrix basis_by_shared(const RimProblem& problem, const RimState& rim) {
 }
 
 // Eliminates the tube-end's own unknowns (Schur's complement): what is left for the shared ones.
+// With G and m the sums over the functions, B the rows of G for the own unknowns, C the inverse of
+// their own block with its priors, and g their moment with its priors:
+//   N = At (G - Bt C B) A,  moment = At (m - Bt C g)
 void reduce(const RimProblem& problem, RimState& rim) {
   const double inverse2 = 1.0 / problem.scale2;
   const double nominal = 0.5 * problem.model->bore_mm;
@@ -126,7 +132,8 @@ void reduce(const RimProblem& problem, RimState& rim) {
   rim.shared_moment = A.transpose().lazyProduct(moment);
 }
 
-// What the tube-end's own unknowns change by when the shared ones change by `step`.
+// What the tube-end's own unknowns change by when the shared ones change by `step`: C (g + B A
+// step).
 Eigen::Vector3d own_step(const RimState& rim, const SharedVector& step) {
   return rim.own_covariance * rim.own_gradient + rim.own_by_shared.lazyProduct(step);
 }

@@ -21,7 +21,8 @@ struct Triangle {
 
 constexpr std::array<std::array<int, 2>, 3> kSides = {{{0, 1}, {0, 2}, {1, 2}}};
 
-// What the laws of cosines leave over [Fallon eq. 5.22-5.24].
+// What the laws of cosines leave over [Fallon eq. 5.22-5.24]:
+//   F_ab = x_a^2 + x_b^2 - 2 x_a x_b cos(a, b) - d_ab^2
 Eigen::Vector3d excess(const Triangle& triangle, const RayLengths& x) {
   Eigen::Vector3d result;
   for (int i = 0; i < 3; ++i) {
@@ -33,6 +34,7 @@ Eigen::Vector3d excess(const Triangle& triangle, const RayLengths& x) {
   return result;
 }
 
+// Newton: x <- x - J^-1 F, with dF_ab / dx_a = 2 (x_a - x_b cos(a, b)).
 bool polish(const Triangle& triangle, RayLengths& x) {
   const double size = std::max({triangle.side2[0], triangle.side2[1], triangle.side2[2]});
   for (int step = 0; step < 20; ++step) {
@@ -98,9 +100,11 @@ StaticVector<RayLengths, 4> solve_ray_lengths(const std::array<Eigen::Vector3d, 
   StaticVector<RayLengths, 4> solutions;
   // Lengths differ a thousandfold at most for anything a camera sees.
   for (const double v : math::real_roots(quartic_of(triangle), 1e-3, 1e3)) {
+    // The law of cosines of side 02 with x_2 = v x_0: x_0^2 (1 + v^2 - 2 v cos) = d_02^2.
     const double span2 = 1.0 + v * v - 2.0 * v * triangle.cosine[1];
     const double x0 = std::sqrt(triangle.side2[1] / span2);
-    // x_1 from its law of cosines with x_0; of the two the third law keeps the right one.
+    // x_1 from its law of cosines with x_0, x_1 = x_0 cos +- sqrt(d_01^2 - x_0^2 sin^2); of the two
+    // the third law keeps the right one.
     const double cosine = triangle.cosine[0];
     const double root2 = triangle.side2[0] - x0 * x0 * (1.0 - cosine * cosine);
     const double root = std::sqrt(std::max(root2, 0.0));
@@ -142,6 +146,7 @@ StaticVector<CameraSheet, 4> solve_three_points(const std::array<PointPair, 3>& 
                                        (object[2] - object[1]).norm()};
   for (const RayLengths& x : solve_ray_lengths(rays, sides)) {
     const std::array<Eigen::Vector3d, 3> seen = {x(0) * rays[0], x(1) * rays[1], x(2) * rays[2]};
+    // The axes of the triangle as seen are R times its own; a corner then gives t = P - R Q.
     const Eigen::Matrix3d R = triangle_axes(seen) * triangle_axes(object).transpose();
     static_cast<void>(poses.try_push_back({R, seen[1] - R * object[1]}));
   }

@@ -2,7 +2,7 @@
 
 #include "core/base/transform.h"
 #include "core/base/tube_address.h"
-#include "core/math/matrix.h"
+#include "core/math/small_matrix.h"
 #include "core/pose/pose_model.h"
 
 namespace tubesight::core::pose {

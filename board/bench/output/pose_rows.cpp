@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "core/math/angle_covariance.h"
 #include "core/math/rotation.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"

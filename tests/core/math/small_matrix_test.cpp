@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
+#include "core/math/small_matrix.h"
 
-#include "core/math/cholesky.h"
-#include "core/math/symmetric_eigen.h"
+#include <gtest/gtest.h>
 
 namespace tubesight::core::math {
 namespace {
