@@ -4,12 +4,13 @@
 #include <cstdint>
 
 #include "core/base/scalar.h"
+#include "core/math/small_matrix.h"
 
 namespace tubesight::core::kinematics {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using math::Matrix6d;
+using math::Vector6d;
 
 // A turn of one radian counts as much as this many millimetres: about half the length of an arm, so
 // that no row of the equations outweighs the others by far.
@@ -18,38 +19,8 @@ constexpr int kIterations = 80;  // of one start; near starts need five, far one
 
 std::size_t at(std::int32_t joint) { return static_cast<std::size_t>(joint); }
 
-// Solves A x = b for an A that is positive definite far beyond rounding, by Cholesky's factors, in
-// place.
-Vector6 solve(Matrix6 a, Vector6 b) {
-  for (int j = 0; j < 6; ++j) {
-    for (int k = 0; k < j; ++k) {
-      a(j, j) -= a(j, k) * a(j, k);
-    }
-    a(j, j) = square_root(a(j, j));
-    for (int i = j + 1; i < 6; ++i) {
-      for (int k = 0; k < j; ++k) {
-        a(i, j) -= a(i, k) * a(j, k);
-      }
-      a(i, j) /= a(j, j);
-    }
-  }
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < i; ++k) {
-      b(i) -= a(i, k) * b(k);
-    }
-    b(i) /= a(i, i);
-  }
-  for (int i = 5; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) {
-      b(i) -= a(k, i) * b(k);
-    }
-    b(i) /= a(i, i);
-  }
-  return b;
-}
-
 struct Miss {
-  Vector6 weighted = Vector6::Zero();  ///< what is missing, turns in mm of kTurn_mm
+  Vector6d weighted = Vector6d::Zero();  ///< what is missing, turns in mm of kTurn_mm
   double mm = 0.0;
   double rad = 0.0;
   double square = 0.0;
@@ -120,7 +91,7 @@ class Search {
     J.bottomRows<3>() *= options_.position_only ? 0.0 : kTurn_mm;
     JointVector tried = angles_;
     for (std::int32_t round = 0; round <= arm_.joints(); ++round) {
-      Matrix6 normal = Matrix6::Zero();
+      Matrix6d normal = Matrix6d::Zero();
       for (int r = 0; r < 6; ++r) {
         for (int c = 0; c <= r; ++c) {
           normal(r, c) = J.row(r).dot(J.row(c));
@@ -133,7 +104,11 @@ class Search {
       for (int r = 0; r < 6; ++r) {
         normal(r, r) += least;
       }
-      const Vector6 pull = solve(normal, miss_.weighted);
+      math::Cholesky<6> factor;
+      if (!factor.factor(normal)) {
+        return tried;
+      }
+      const Vector6d pull = factor.solve(miss_.weighted);
       bool held = false;
       for (std::int32_t i = 0; i < arm_.joints(); ++i) {
         const double angle = angles_[at(i)] + J.col(i).dot(pull);

@@ -41,7 +41,8 @@ void append_seconds(std::string& out, core::FieldTime time) {
   drivers::append_decimal(out, time.count(), 1'000'000'000, 6);
 }
 
-/// alpha, beta, gamma of R = Rz(alpha) Ry(beta) Rx(gamma), radians.
+/// alpha, beta, gamma of R = Rz(alpha) Ry(beta) Rx(gamma), radians. Not core/math's on purpose: a
+/// mistake there would hide if the truth that tests the pose were written with it.
 std::array<double, 3> angles_of(const Eigen::Matrix3d& rotation) {
   return {std::atan2(rotation(1, 0), rotation(0, 0)),
           std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2))),
