@@ -247,7 +247,8 @@ function(tubesight_add_test name)
   if(TUBESIGHT_PRECOMPILE_TEST_HEADERS)
     target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
-    target_compile_options(${name} PRIVATE -Wno-array-bounds -Wno-stringop-overflow)
+    target_compile_options(${name} PRIVATE
+      -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
   elseif(tubesight_launcher)
     set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
   endif()
