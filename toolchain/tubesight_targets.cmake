@@ -289,8 +289,9 @@ endfunction()
 # a program once with all its tests but those named. scripts/ctest_summary.py counts them one by one.
 function(tubesight_add_whole_program name program left_out)
   find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+  # Not by its target, which would be run under the emulator.
   add_test(NAME ${name}
-    COMMAND Python3::Interpreter -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
+    COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
       --results ${PROJECT_BINARY_DIR}/results/${name}.xml --leave-out "${left_out}" --
       ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${program}>)
   get_target_property(sources ${program} SOURCES)
