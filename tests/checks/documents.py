@@ -12,7 +12,7 @@ import re
 import sys
 import tempfile
 
-from source_text import report
+from source_text import plant, report
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
@@ -90,9 +90,7 @@ def self_test():
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text in planted.items():
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / name).write_text(text, encoding="utf-8")
+        plant(root, planted.items())
         found, _ = check(root)
     expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",

@@ -13,7 +13,7 @@ import re
 import sys
 import tempfile
 
-from source_text import code_only, report, sources
+from source_text import code_only, plant, report, sources
 
 BASE = ["core/base"]
 TRACKING = BASE + ["core/camera", "core/tubesheet", "core/edges"]
@@ -200,9 +200,7 @@ PLANTED = [
 def self_test():
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text, _ in PLANTED:
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / name).write_text(text, encoding="utf-8")
+        plant(root, ((name, text) for name, text, _ in PLANTED))
         found, _ = check(root)
     wrong = []
     for name, _, expected in PLANTED:

@@ -14,7 +14,7 @@ import re
 import sys
 import tempfile
 
-from source_text import code_only, report, sources
+from source_text import code_only, plant, report, sources
 
 FOLDERS = ["core", "hal", "drivers", "board"]
 KNOWING = ("core/tubesheet/", "core/rendering/")
@@ -70,9 +70,7 @@ def self_test():
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text in files.items():
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / name).write_text(text, encoding="utf-8")
+        plant(root, files.items())
         found, _ = check(root, {"core/base/settings.h", "board/b.cpp"})
     end = ", expected a question to core/tubesheet"
     expected = ["board/a.cpp:3: asks whether an address is odd" + end,

@@ -9,7 +9,7 @@ import re
 import sys
 import tempfile
 
-from source_text import report
+from source_text import plant, report
 
 FILE_BYTES = 4_500_000
 DATA_BYTES = 25_000_000
@@ -70,9 +70,7 @@ def self_test():
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text in planted.items():
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / name).write_text(text, encoding="utf-8")
+        plant(root, planted.items())
         for number in range(7):
             path = root / f"tests/data/{number}.bin"
             path.parent.mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ import re
 import sys
 import tempfile
 
-from source_text import code_only, report, sources
+from source_text import code_only, plant, report, sources
 
 FILE_LINES = 400
 FUNCTION_LINES = 60
@@ -111,9 +111,7 @@ def self_test():
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        for name, text in planted.items():
-            (root / name).parent.mkdir(parents=True, exist_ok=True)
-            (root / name).write_text(text, encoding="utf-8")
+        plant(root, planted.items())
         found, _ = check(root, {"core/a/excused.h": "a table", "core/a/good.cpp": "none needed"})
     expected = ["core/a/lines.h: 401 lines, more than 400",
                 "core/a/long.cpp:2: C::f has 72 lines, more than 60",

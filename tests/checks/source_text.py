@@ -1,4 +1,5 @@
-"""What several checks share: finding our sources, and reading them without comments and strings."""
+"""What several checks share: finding our sources, reading them without comments and strings, planting
+files for a self-test."""
 import pathlib
 import re
 
@@ -23,6 +24,14 @@ def code_only(text):
         keep = '""' if found[0] in 'R"' else "0" if found[0] == "'" else " "
         return keep + "\n" * found.count("\n")
     return _COMMENT_OR_STRING.sub(blank, text)
+
+
+def plant(root, files):
+    """Writes (name, text) pairs below a folder, with the folders between."""
+    for name, text in files:
+        path = pathlib.Path(root) / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
 
 
 def report(name, problems, what):
