@@ -10,15 +10,13 @@ namespace tubesight::core::tracking {
 namespace {
 
 template <typename S>
-class ConfirmedStart : public ::testing::Test {
+class ConfirmedStart : public ObservedScene<S> {
  protected:
-  void SetUp() override {
-    tests::make_synthetic_settings(*scene_.settings, 2);
-    scene_.make();
-    sheet_ = std::make_unique<SyntheticSheet>(*scene_.settings);
-    observer_ = std::make_unique<SheetObserver<S>>(scene_.model, *scene_.map);
-    observer_->begin();
-  }
+  using ObservedScene<S>::scene_;
+  using ObservedScene<S>::sheet_;
+  using ObservedScene<S>::observer_;
+  using ObservedScene<S>::frame_;
+
   /// Clicks on three tubes, each said to be that at the same place of `told`.
   StartRefusal start(const std::vector<TubeAddress>& told) {
     const std::vector<TubeAddress> clicked{{20, 10}, {21, 10}, {20, 11}};
@@ -33,10 +31,6 @@ class ConfirmedStart : public ::testing::Test {
                                    *observer_, seen_);
   }
 
-  Scene<S> scene_;
-  std::unique_ptr<SyntheticSheet> sheet_;
-  std::unique_ptr<SheetObserver<S>> observer_;
-  Frame frame_;
   Observation<S> seen_{};
 };
 TYPED_TEST_SUITE(ConfirmedStart, Scalars);
@@ -45,9 +39,7 @@ TYPED_TEST(ConfirmedStart, RefinesTheClicksOnTheWholeWindow) {
   ASSERT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
   ASSERT_TRUE(this->seen_.fitted);
   EXPECT_GE(this->seen_.fit.used, 3);
-  const auto axis = this->sheet_->axis_point(kOverTube);
-  const auto center = this->sheet_->center_of(this->seen_.pose.anchor);
-  EXPECT_LT(distance(this->seen_.tool.local, {axis[0] - center[0], axis[1] - center[1]}), 0.3);
+  EXPECT_LT(this->error_mm(this->seen_), 0.3);
 }
 
 TYPED_TEST(ConfirmedStart, IsRefusedWhenOneAddressIsAnother) {

@@ -10,18 +10,20 @@ namespace {
 constexpr std::int64_t kField_ns = 16'666'667;
 
 template <typename S>
-class FieldOrderWatchOf : public ::testing::Test {
+class FieldOrderWatchOf : public ObservedScene<S> {
  protected:
+  using ObservedScene<S>::scene_;
+  using ObservedScene<S>::sheet_;
+  using ObservedScene<S>::observer_;
+  using ObservedScene<S>::frame_;
+
   void SetUp() override {
     tests::make_synthetic_settings(*scene_.settings, 2);
     scene_.settings->motion = {300.0, 3000.0};
     make();
   }
   void make() {
-    scene_.make();
-    sheet_ = std::make_unique<SyntheticSheet>(*scene_.settings);
-    observer_ = std::make_unique<SheetObserver<S>>(scene_.model, *scene_.map);
-    observer_->begin();
+    ObservedScene<S>::make();
     watch_ = std::make_unique<FieldOrderWatch<S>>(scene_.model);
     watch_->begin();
   }
@@ -57,11 +59,7 @@ class FieldOrderWatchOf : public ::testing::Test {
     }
   }
 
-  Scene<S> scene_;
-  std::unique_ptr<SyntheticSheet> sheet_;
-  std::unique_ptr<SheetObserver<S>> observer_;
   std::unique_ptr<FieldOrderWatch<S>> watch_;
-  Frame frame_;
 };
 TYPED_TEST_SUITE(FieldOrderWatchOf, Scalars);
 

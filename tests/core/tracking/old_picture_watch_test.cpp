@@ -5,31 +5,22 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/tracking/noisy_picture.h"
+
 namespace tubesight::core::tracking {
 namespace {
 
-constexpr std::int32_t kWidth = 320;
-constexpr std::int32_t kHeight = 240;
-
 /// A watch shown grey pictures whose noise is `seed`'s.
-class OldPictureWatchOf : public testing::Test {
+class OldPictureWatchOf : public NoisyPicture {
  protected:
-  void draw(std::uint32_t seed) {
-    std::uint32_t state = seed * 2654435761U + 1U;
-    for (std::uint8_t& pixel : pixels_) {
-      state = state * 1664525U + 1013904223U;
-      pixel = static_cast<std::uint8_t>(120 + static_cast<std::int32_t>(state >> 30U));
-    }
-  }
   bool look(std::uint32_t seed) {
     draw(seed);
     return look();
   }
   bool look() {
     Field field;
-    const ImageView frame{pixels_.data(), kWidth, kHeight, kWidth};
     field.parity = Parity::kProgressive;
-    field.pixels = field_of(frame, field.parity);
+    field.pixels = view(field.parity);
     return watch_.shows_old(field, {20, 20, 300, 200});
   }
   /// Shows and believes fields at rest with the noises of these seeds.
@@ -40,7 +31,6 @@ class OldPictureWatchOf : public testing::Test {
     }
   }
 
-  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(kWidth * kHeight);
   OldPictureWatch watch_;
 };
 

@@ -5,28 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/tracking/noisy_picture.h"
+
 namespace tubesight::core::tracking {
 namespace {
 
-constexpr std::int32_t kWidth = 320;
-constexpr std::int32_t kHeight = 240;
-
-/// Pictures of one grey level with a noise of its own for each seed.
-class PictureMemoryOf : public testing::Test {
+class PictureMemoryOf : public NoisyPicture {
  protected:
-  void draw(std::uint32_t seed, std::int32_t level = 120, std::int32_t first_line = 0) {
-    std::uint32_t state = seed * 2654435761U + 1U;
-    for (std::size_t i = static_cast<std::size_t>(first_line * kWidth); i < pixels_.size(); ++i) {
-      state = state * 1664525U + 1013904223U;
-      pixels_[i] = static_cast<std::uint8_t>(level + static_cast<std::int32_t>(state >> 30U));
-    }
-  }
   PictureLikeness look(Parity parity = Parity::kEven) {
-    const ImageView frame{pixels_.data(), kWidth, kHeight, kWidth};
-    return memory_.look(field_of(frame, parity), parity, {20, 20, 300, 200});
+    return memory_.look(view(parity), parity, {20, 20, 300, 200});
   }
 
-  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(kWidth * kHeight);
   PictureMemory memory_;
 };
 

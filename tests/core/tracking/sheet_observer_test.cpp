@@ -8,15 +8,11 @@ namespace tubesight::core::tracking {
 namespace {
 
 template <typename S>
-class SheetObserverOf : public ::testing::Test {
+class SheetObserverOf : public ObservedScene<S> {
  protected:
-  void SetUp() override {
-    tests::make_synthetic_settings(*scene_.settings, 2);
-    scene_.make();
-    sheet_ = std::make_unique<SyntheticSheet>(*scene_.settings);
-    observer_ = std::make_unique<SheetObserver<S>>(scene_.model, *scene_.map);
-    observer_->begin();
-  }
+  using ObservedScene<S>::scene_;
+  using ObservedScene<S>::sheet_;
+  using ObservedScene<S>::frame_;
 
   /// What is expected where the tool is `off_mm` from where the pictures show it.
   [[nodiscard]] Expectation<S> expect_off_by(double off_mm, double reach_mm) const {
@@ -30,16 +26,6 @@ class SheetObserverOf : public ::testing::Test {
     sheet_->draw(kOverTube, Parity::kEven, 1, frame_);
     return sheet_->view(frame_, Parity::kEven);
   }
-  [[nodiscard]] double error_mm(const Observation<S>& seen) const {
-    const auto axis = sheet_->axis_point(kOverTube);
-    const auto center = sheet_->center_of(seen.pose.anchor);
-    return distance(seen.tool.local, {axis[0] - center[0], axis[1] - center[1]});
-  }
-
-  Scene<S> scene_;
-  std::unique_ptr<SyntheticSheet> sheet_;
-  std::unique_ptr<SheetObserver<S>> observer_;
-  Frame frame_;
 };
 TYPED_TEST_SUITE(SheetObserverOf, Scalars);
 

@@ -10,6 +10,7 @@
 
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
+#include "core/tracking/sheet_observer.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/tracking_model.h"
 #include "core/tracking/tracking_setup.h"
@@ -111,5 +112,33 @@ struct Scene {
 /// Over tube (20, 10), 60 mm below, turned by 2 degrees.
 inline constexpr ToolPlace kOverTube{10 * 25.4, 20 * 25.4, 60.0, 2.0, 0.0, 0.0};
 inline constexpr TubeAddress kTube{20, 10};
+
+/// A scene with an observer that has begun, and the sheet that its pictures are drawn from.
+template <typename S>
+class ObservedScene : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    tests::make_synthetic_settings(*scene_.settings, 2);
+    make();
+  }
+  /// After changes of the settings.
+  void make() {
+    scene_.make();
+    sheet_ = std::make_unique<SyntheticSheet>(*scene_.settings);
+    observer_ = std::make_unique<SheetObserver<S>>(scene_.model, *scene_.map);
+    observer_->begin();
+  }
+  /// What is off in the tool's place by an observation of the tool at kOverTube.
+  [[nodiscard]] double error_mm(const Observation<S>& seen) const {
+    const auto axis = sheet_->axis_point(kOverTube);
+    const auto center = sheet_->center_of(seen.pose.anchor);
+    return distance(seen.tool.local, {axis[0] - center[0], axis[1] - center[1]});
+  }
+
+  Scene<S> scene_;
+  std::unique_ptr<SyntheticSheet> sheet_;
+  std::unique_ptr<SheetObserver<S>> observer_;
+  Frame frame_;
+};
 
 }  // namespace tubesight::core::tracking
