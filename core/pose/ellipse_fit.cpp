@@ -11,8 +11,8 @@
 namespace tubesight::core::pose {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using math::Matrix6d;
+using math::Vector6d;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 
@@ -111,8 +111,8 @@ constexpr std::array<std::array<std::size_t, 2>, 6> kPowers = {
     {{2, 0}, {1, 1}, {0, 2}, {1, 0}, {0, 1}, {0, 0}}};
 
 // A^T A / n of [Fallon eq. 5.14].
-Matrix6 scatter_of(const Moments& m) {
-  Matrix6 scatter;
+Matrix6d scatter_of(const Moments& m) {
+  Matrix6d scatter;
   for (int i = 0; i < 6; ++i) {
     for (int j = 0; j < 6; ++j) {
       const auto& a = kPowers[static_cast<std::size_t>(i)];
@@ -124,8 +124,8 @@ Matrix6 scatter_of(const Moments& m) {
 }
 
 // Least squares of a x^2 + b x y + c y^2 + d x + e y = 1 [Fallon eq. 5.14].
-bool fit_linear(const Moments& m, Vector6& k) {
-  const Matrix6 scatter = scatter_of(m);
+bool fit_linear(const Moments& m, Vector6d& k) {
+  const Matrix6d scatter = scatter_of(m);
   math::Cholesky<5> cholesky;
   if (!cholesky.factor(scatter.topLeftCorner<5, 5>())) {
     return false;
@@ -137,8 +137,8 @@ bool fit_linear(const Moments& m, Vector6& k) {
 
 // a^T S a at a minimum under 4 a c - b^2 = 1. With d, e, f eliminated, M a = lambda C1 a; C1 has
 // one positive eigenvalue, so 1 / lambda is the largest eigenvalue of L^-1 C1 L^-T with M = L L^T.
-bool fit_direct(const Moments& m, Vector6& k) {
-  const Matrix6 scatter = scatter_of(m);
+bool fit_direct(const Moments& m, Vector6d& k) {
+  const Matrix6d scatter = scatter_of(m);
   const Eigen::Matrix3d cross = scatter.topRightCorner<3, 3>();
   const Eigen::Matrix3d linear = scatter.bottomRightCorner<3, 3>();
   if (!(linear.determinant() > 1e-9)) {
@@ -181,8 +181,8 @@ Matrix5 gradient_scatter(const Moments& m) {
 // The least of (mean of f^2) / (mean of |grad f|^2). The constant that suits the others best is
 // minus their mean, which leaves S' = S - s st; then S' k = lambda G k, with G = L Lt the least
 // eigenvalue of L^-1 S' L^-T.
-bool fit_taubin(const Moments& m, Vector6& k) {
-  const Matrix6 scatter = scatter_of(m);
+bool fit_taubin(const Moments& m, Vector6d& k) {
+  const Matrix6d scatter = scatter_of(m);
   const Vector5 constant = scatter.topRightCorner<5, 1>();
   const Matrix5 reduced = scatter.topLeftCorner<5, 5>() - constant * constant.transpose();
   math::Cholesky<5> cholesky;
@@ -206,11 +206,12 @@ bool fit_taubin(const Moments& m, Vector6& k) {
 // Gauss-Newton on the sum of e^2 with e = f / |grad f|, the gradient's own dependence included:
 //   de / dk = (df / dk - e d|grad f| / dk) / |grad f|
 // The scale of the coefficients is held by a row along them.
-bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part part, Vector6& k) {
+bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part part,
+                    Vector6d& k) {
   k.normalize();
   for (int round = 0; round < 6; ++round) {
-    Matrix6 normal = Matrix6::Zero();
-    Vector6 moment = Vector6::Zero();
+    Matrix6d normal = Matrix6d::Zero();
+    Vector6d moment = Vector6d::Zero();
     double w_sum = 0.0;
     for (std::size_t index = 0; index < points.size(); ++index) {
       const PlanePoint& p = points[index];
@@ -223,12 +224,12 @@ bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part
       const double fx = 2.0 * k(0) * x + k(1) * y + k(3);
       const double fy = k(1) * x + 2.0 * k(2) * y + k(4);
       const double inverse = 1.0 / std::sqrt(fx * fx + fy * fy);
-      const Vector6 design{x * x, x * y, y * y, x, y, 1.0};
+      const Vector6d design{x * x, x * y, y * y, x, y, 1.0};
       const double e = design.dot(k) * inverse;
       const double nx = fx * inverse;
       const double ny = fy * inverse;
-      const Vector6 slope{2.0 * x * nx, y * nx + x * ny, 2.0 * y * ny, nx, ny, 0.0};
-      const Vector6 row = inverse * (design - e * slope);
+      const Vector6d slope{2.0 * x * nx, y * nx + x * ny, 2.0 * y * ny, nx, ny, 0.0};
+      const Vector6d row = inverse * (design - e * slope);
       w_sum += w;
       moment += w * e * row;
       for (int i = 0; i < 6; ++i) {
@@ -246,7 +247,7 @@ bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part
     if (!cholesky.factor(normal)) {
       return false;
     }
-    const Vector6 step = cholesky.solve(moment);
+    const Vector6d step = cholesky.solve(moment);
     k = (k - step).normalized();
     if (step.squaredNorm() < 1e-20) {
       break;
@@ -258,7 +259,7 @@ bool refine_sampson(std::span<const PlanePoint> points, const Frame& frame, Part
 bool fit_once(std::span<const PlanePoint> points, const Frame& frame, Part part,
               EllipseMethod method, Conic& conic) {
   const Moments moments = moments_of(points, frame, part);
-  Vector6 k = Vector6::Zero();
+  Vector6d k = Vector6d::Zero();
   bool solved = false;
   switch (method) {
     case EllipseMethod::kLinear: solved = fit_linear(moments, k); break;

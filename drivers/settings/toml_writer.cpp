@@ -10,6 +10,16 @@ namespace {
 
 char printing(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? ' ' : c; }
 
+/// `[a, b, ...]`; `text_of` writes one value.
+template <typename Value, typename TextOf>
+std::string list_text(std::span<const Value> values, TextOf text_of) {
+  std::string list;
+  for (const Value& value : values) {
+    list += (list.empty() ? "" : ", ") + text_of(value);
+  }
+  return "[" + list + "]";
+}
+
 }  // namespace
 
 std::string toml_number(double value, TomlManner manner) {
@@ -58,19 +68,11 @@ void TomlWriter::text(std::string_view key, std::string_view value) {
 }
 
 void TomlWriter::numbers(std::string_view key, std::span<const double> values) {
-  std::string list;
-  for (const double value : values) {
-    list += (list.empty() ? "" : ", ") + toml_number(value, manner_);
-  }
-  raw(key, "[" + list + "]");
+  raw(key, list_text(values, [&](double value) { return toml_number(value, manner_); }));
 }
 
 void TomlWriter::wholes(std::string_view key, std::span<const std::int32_t> values) {
-  std::string list;
-  for (const std::int32_t value : values) {
-    list += (list.empty() ? "" : ", ") + std::to_string(value);
-  }
-  raw(key, "[" + list + "]");
+  raw(key, list_text(values, [](std::int32_t value) { return std::to_string(value); }));
 }
 
 void TomlWriter::addresses(std::string_view key, std::span<const core::TubeAddress> list) {
@@ -89,11 +91,7 @@ void TomlWriter::addresses(std::string_view key, std::span<const core::TubeAddre
 }
 
 void TomlWriter::inline_tables(std::string_view key, std::span<const std::string> tables) {
-  std::string list;
-  for (const std::string& table : tables) {
-    list += (list.empty() ? "" : ", ") + table;
-  }
-  raw(key, "[" + list + "]");
+  raw(key, list_text(tables, [](const std::string& table) { return table; }));
 }
 
 std::string TomlWriter::take() { return std::exchange(text_, {}); }
