@@ -9,6 +9,7 @@
 
 #include "core/base/scalar.h"
 #include "core/session/session.h"
+#include "drivers/scenario/scenario_file.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/settings/table_reader.h"
@@ -20,7 +21,7 @@ using drivers::SettingsDocument;
 using drivers::TableReader;
 
 constexpr std::array<std::string_view, 4> kBoxTables = {"source", "control", "realtime", "link"};
-constexpr std::array<std::string_view, 1> kSourceKinds = {"replay"};
+constexpr std::array<std::string_view, 2> kSourceKinds = {"replay", "simulated"};
 constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
 constexpr std::array<std::string_view, 1> kLinkKinds = {"none"};
 
@@ -38,6 +39,27 @@ std::string from_its_folder(const SettingsDocument& document, const TableReader&
   return (std::filesystem::path(document.files()[file]).parent_path() / path).string();
 }
 
+/// A file that one kind of source plays, and the other doesn't have.
+void read_file(const SettingsDocument& document, TableReader& table, std::string_view key,
+               bool wanted, std::string& path) {
+  if (!wanted) {
+    if (table.has(key)) {
+      table.complain(key, "of another kind of source, expected it left out");
+    }
+    table.ignore(key);
+    return;
+  }
+  std::string name;
+  if (!table.text(key, name)) {
+    return;
+  }
+  path = from_its_folder(document, table, key, name);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    table.complain(key, "there is no file '" + path + "', expected one");
+  }
+}
+
 void read_source(const SettingsDocument& document, TableReader& table, SourceSettings& source) {
   std::size_t kind = 0;
   std::size_t at_end = 0;
@@ -48,15 +70,12 @@ void read_source(const SettingsDocument& document, TableReader& table, SourceSet
     source.loop = at_end == 0;
   }
   table.optional_switch("script", source.script);
-  std::string recording;
-  if (table.text("recording", recording)) {
-    source.recording = from_its_folder(document, table, "recording", recording);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(source.recording, ignored)) {
-      table.complain("recording",
-                     "there is no file '" + source.recording + "', expected a recording");
-    }
-  }
+  const bool known = table.sound("kind");
+  const bool simulated = source.kind == SourceKind::kSimulated;
+  read_file(document, table, "recording", known ? !simulated : table.has("recording"),
+            source.recording);
+  read_file(document, table, "scenario", known ? simulated : table.has("scenario"),
+            source.scenario);
 }
 
 void read_control(const SettingsDocument& document, TableReader& table, std::string& socket) {
@@ -77,6 +96,17 @@ void read_real_time(TableReader& table, RealTimeSettings& real_time) {
   table.optional_number("deadline_ms", kDeadline, real_time.deadline_ms);
 }
 
+/// A scenario says itself what the box is told of its world.
+void refuse_session(SettingsDocument& document) {
+  for (const std::string_view name : drivers::kSessionTables) {
+    if (const drivers::SettingsTable* const table = document.find(name)) {
+      document.problems().push_back(
+          {table->place, std::string(name) + ": a simulated source has the tables of its scenario, "
+                                             "expected none here"});
+    }
+  }
+}
+
 void read_all(SettingsDocument& document, BoxSettings& box) {
   box.source = {};
   box.control_socket.clear();
@@ -95,6 +125,10 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
       box.link = static_cast<LinkKind>(kind);
     }
   });
+  if (box.source.kind == SourceKind::kSimulated) {
+    refuse_session(document);
+    return;
+  }
   drivers::read_session(document, kBoxNeeds, box.session);
   if (document.problems().empty() &&
       !std::make_unique<core::session::Session<core::FixedPoint>>()->configure(
@@ -115,7 +149,14 @@ core::Result<void> load_box_settings(drivers::TextFiles& files, const std::strin
   SettingsDocument document;
   document.load(files, path, known);
   read_all(document, box);
-  return document.report(messages);
+  const auto read = document.report(messages);
+  if (box.source.kind != SourceKind::kSimulated || box.source.scenario.empty()) {
+    return read;
+  }
+  // Its mistakes are told with the others.
+  const auto scenario =
+      drivers::load_scenario(files, box.source.scenario, {-1, true}, box.scenario, messages);
+  return read ? scenario : read;
 }
 
 core::Result<void> load_box_settings(const std::string& path, BoxSettings& box,

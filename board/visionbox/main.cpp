@@ -71,7 +71,7 @@ int run(const BoxSettings& settings) {
     now.fields_per_s = watch.fields_per_s();
     return now;
   };
-  ControlDesk desk(report, box->station(), settings.session.settings.start);
+  ControlDesk desk(report, box->station(), settings.told().start);
   drivers::ControlServer server(desk);
   if (!settings.control_socket.empty() && !server.start(settings.control_socket)) {
     log.say(server.message());

@@ -1,6 +1,7 @@
 #include "board/visionbox/vision_box.h"
 
 #include "board/visionbox/replay_player.h"
+#include "board/visionbox/simulated_player.h"
 
 namespace tubesight::board {
 namespace {
@@ -10,7 +11,10 @@ using core::Result;
 using core::Unexpected;
 
 std::unique_ptr<FieldPlayer> make_player(const BoxSettings& settings) {
-  return std::make_unique<ReplayPlayer>(settings.session.settings, settings.source.recording,
+  if (settings.source.kind == SourceKind::kSimulated) {
+    return std::make_unique<SimulatedPlayer>(settings.scenario.scenario, settings.source.script);
+  }
+  return std::make_unique<ReplayPlayer>(settings.told(), settings.source.recording,
                                         settings.source.script);
 }
 
@@ -21,13 +25,12 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       tell_(std::move(tell)),
       player_(make_player(settings)),
       source_(*player_, source_settings(), tell_),
-      pose_handover_(poses_, settings.session.settings.camera.width_px,
-                     settings.session.settings.camera.height_px),
+      pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
       tracking_(loop_, source_, settings.real_time) {}
 
 PlayedSourceSettings VisionBox::source_settings() const {
-  const core::CameraSettings& camera = settings_->session.settings.camera;
+  const core::CameraSettings& camera = settings_->told().camera;
   PlayedSourceSettings source;
   source.loop = settings_->source.loop;
   source.width_px = camera.width_px;
@@ -45,7 +48,7 @@ Result<void> VisionBox::start_without_tracking() {
   if (started_) {
     return Unexpected(Error::kNotReady);
   }
-  const core::SessionSettings& session = settings_->session.settings;
+  const core::SessionSettings& session = settings_->told();
   TUBESIGHT_TRY(session_.configure(session));
   TUBESIGHT_TRY(poses_.configure(session));
   started_ = true;
@@ -91,7 +94,7 @@ BoxReport VisionBox::report() const {
   BoxReport report;
   report.turned = tracking_.status(report.tracking);
   report.up = monotonic_now() - started_at_;
-  report.source_kind = "replay";
+  report.source_kind = settings_->source.kind == SourceKind::kSimulated ? "simulated" : "replay";
   report.source = source_.state();
   report.span = source_.span();
   report.passes = source_.passes();

@@ -76,6 +76,13 @@ void Daemon::write_settings(const std::string& more) const {
                                 recording + "recording.y4m.xz\"\n" + more);
 }
 
+void Daemon::write_simulated_settings(const std::string& more) const {
+  folder_.write("box.toml",
+                "[control]\nsocket = \"box\"\n[source]\nkind = \"simulated\"\nscenario = \"" +
+                    std::string(TUBESIGHT_SOURCE_DIR) + "/docs/examples/steam-generator.toml\"\n" +
+                    more);
+}
+
 void Daemon::start() {
   process_ = spawn(command_line(TUBESIGHT_DAEMON, {settings()}), folder_.path("said"),
                    folder_.path("said"));

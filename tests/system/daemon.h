@@ -32,6 +32,9 @@ class Daemon {
   /// A box on the shipped recording; `more` are lines of [source].
   void write_settings(const std::string& more) const;
 
+  /// A box on the scenario of the first run in docs/.
+  void write_simulated_settings(const std::string& more) const;
+
   void start();
   /// Starts and waits until it answers.
   [[nodiscard]] bool start_and_wait();

@@ -111,6 +111,33 @@ TEST(DaemonSystem, GoesOnWithoutFieldsWhenTheRecordingHasEnded) {
   EXPECT_EQ(box.wait_for_end(kLong), 0);
 }
 
+TEST(DaemonSystem, TheFirstRunOfTheDocumentsTracksASimulatedSheet) {
+  Daemon box;
+  box.write_simulated_settings("");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+
+  const Answered start = box.ask({"start"});
+  EXPECT_EQ(start.status, 0) << start.err;
+  EXPECT_EQ(start.out, "taken: the box tracks\n");
+  const std::string status = box.wait_for("\"state\":\"tracking\"", kLong);
+  EXPECT_TRUE(has(status, "\"tube\":\"40,60\",\"aligned\":true")) << status;
+  const Answered pick = box.ask({"pick", "318,190"});
+  EXPECT_EQ(pick.out, "tube 40,60\n") << pick.err;
+  const Answered lamp = box.ask({"lamp", "0"});
+  EXPECT_EQ(lamp.status, 0) << lamp.err;
+  const std::string dark = box.wait_for("\"reason\":\"dark\"", kLong);
+  EXPECT_TRUE(has(dark, "\"reason\":\"dark\"")) << "the lamp of the sheet obeys: " << dark;
+  EXPECT_TRUE(has(dark, "\"lamp\":{\"dimmed\":true,\"permille\":0}")) << dark;
+}
+
+TEST(DaemonSystem, AScenariosScriptStartsTheBox) {
+  Daemon box;
+  box.write_simulated_settings("script = true\n");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+
+  EXPECT_TRUE(has(box.wait_for("\"state\":\"tracking\"", kLong), "\"state\":\"tracking\""));
+}
+
 TEST(DaemonSystem, ASecondBoxOnTheSameSocketIsRefused) {
   Daemon box;
   box.write_settings("");

@@ -100,6 +100,34 @@ TEST_F(BoxSettingsTest, MistakesOfTheSessionAreToldWithThem) {
   EXPECT_TRUE(told("tubesheet: the table is missing"));
 }
 
+TEST_F(BoxSettingsTest, ASimulationBringsItsSession) {
+  folder_.write("box.toml", "[source]\nkind = \"simulated\"\nscenario = \"" +
+                                std::string(TUBESIGHT_SOURCE_DIR) +
+                                "/docs/examples/steam-generator.toml\"\n");
+
+  ASSERT_TRUE(load_box_settings(folder_.path("box.toml"), *box_, messages_)) << messages_.front();
+
+  EXPECT_EQ(box_->source.kind, SourceKind::kSimulated);
+  EXPECT_EQ(box_->told().camera.width_px, 635);
+  EXPECT_EQ(box_->told().start.tubes.size(), 3) << "clicks made of the truth";
+}
+
+TEST_F(BoxSettingsTest, MistakesOfAScenarioAreToldWithThoseOfTheBox) {
+  folder_.write("scenario.toml", "[camera]\nwidth_px = 5\n");
+  folder_.write("box.toml",
+                "[source]\nkind = \"simulated\"\nscenario = \"scenario.toml\"\nspeed = 1\n"
+                "recording = \"recording.y4m\"\n[motion]\n");
+
+  EXPECT_FALSE(load_box_settings(folder_.path("box.toml"), *box_, messages_));
+
+  EXPECT_TRUE(told("box.toml:4: source.speed: unknown key"));
+  EXPECT_TRUE(told("box.toml:5: source.recording: of another kind of source"));
+  EXPECT_TRUE(told("box.toml:6: motion: a simulated source has the tables of its scenario"));
+  EXPECT_TRUE(told("scenario.toml:2: camera.width_px: 5"));
+  EXPECT_TRUE(told("scenario.toml: tubesheet: the table is missing") ||
+              told("tubesheet: the table is missing"));
+}
+
 TEST_F(BoxSettingsTest, WithoutASourceThereIsNoBox) {
   EXPECT_FALSE(load(""));
 
