@@ -46,21 +46,22 @@ void TrackingThread::turn() {
   const std::chrono::duration<double> patience = kPatienceInFields * source_->span();
   const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
                                   kShortest, kLongest);
-  if (loop_->turn(timeout)) {
-    if (loop_->input().field.status != core::FieldStatus::kMissing) {
-      measure();
-    }
-  } else {
+  if (!loop_->turn(timeout)) {
+    // The source has nothing to wait for: turns go on at the rate of its fields.
     ++now_.source_errors;
-    wait_for_next_turn();
+    sleep_until(next_without_);
     loop_->turn_without_field();
   }
-  turned_at_ = monotonic_now();
+  const MonotonicTime now = monotonic_now();
+  if (loop_->input().field.status != core::FieldStatus::kMissing) {
+    measure();
+    next_without_ = now + source_->span();
+  } else {
+    // The second field of a frame that failed to come is given up with the first, in no time.
+    next_without_ = std::max(next_without_, now - source_->span()) + source_->span();
+  }
   publish();
 }
-
-/// The source has nothing to wait for: turns go on at the rate of its fields.
-void TrackingThread::wait_for_next_turn() { sleep_until(turned_at_ + source_->span()); }
 
 void TrackingThread::measure() {
   const MonotonicTime done = monotonic_now();

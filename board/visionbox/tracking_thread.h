@@ -56,7 +56,6 @@ class TrackingThread {
 
  private:
   void run();
-  void wait_for_next_turn();
   void measure();
   void publish();
 
@@ -69,7 +68,7 @@ class TrackingThread {
   Wakeup ready_;
   TrackingStatus now_;
   core::Snapshot<TrackingStatus> latest_;
-  MonotonicTime turned_at_{0};
+  MonotonicTime next_without_{0};  ///< when a turn without a field is due
 };
 
 }  // namespace tubesight::board

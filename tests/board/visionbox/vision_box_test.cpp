@@ -79,12 +79,17 @@ TEST(VisionBox, WaitsForAStartAndGoesOnWithoutFieldsAtTheirRate) {
   do {
     sleep_until(monotonic_now() + std::chrono::milliseconds(10));
     ASSERT_LT(monotonic_now(), until);
-  } while (!box->tracking().status(status) || status.source_errors < 30);
+  } while (!box->tracking().status(status) || status.source_errors < 5);
+  const std::int64_t before = status.counters.missing;
+  sleep_until(monotonic_now() + std::chrono::milliseconds(500));
+  ASSERT_TRUE(box->tracking().status(status));
   box->stop();
 
   EXPECT_EQ(status.sighting.state, core::TrackState::kWaiting);
   EXPECT_EQ(status.sighting.judged_fields, 0);
-  EXPECT_GE(status.counters.missing, 30);
+  // 60 fields a second; a busy machine makes fewer turns.
+  EXPECT_GT(status.counters.missing - before, 10);
+  EXPECT_LT(status.counters.missing - before, 40);
   EXPECT_EQ(status.sighting.status, core::FieldStatus::kMissing);
 }
 
