@@ -15,6 +15,8 @@ packages=(
   liblzma-dev          # .y4m.xz recordings: drivers/files
   libeigen3-dev        # core/base
   libtomlplusplus-dev  # drivers/settings
+  libmodbus5           # drivers/modbus: a shared library
+  libmodbus-dev        # and its header
   libcli11-dev         # board/bench
 )
 
