@@ -28,7 +28,7 @@ test=(
   python3               # tests/checks/
   mbpoll                # a foreign master for the robot's link
   python3-pymodbus      # and another, with what it needs for a serial line:
-  python3-serial        #
+  python3-serial-asyncio #
   groff-base            # check manual: the manual page is rendered
   g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
   qemu-user-static      # runs its tests

@@ -12,8 +12,6 @@ using core::FieldTime;
 
 constexpr std::uint8_t kReadHolding = 3;
 constexpr std::uint8_t kReadInput = 4;
-constexpr std::uint8_t kWriteOne = 6;
-constexpr std::uint8_t kWriteMany = 16;
 constexpr std::uint8_t kWriteAndRead = 23;
 constexpr std::uint8_t kException = 0x80;
 
@@ -63,8 +61,8 @@ RequestHandler::Outcome RequestHandler::take(std::span<const std::uint8_t> reque
   switch (function) {
     case kReadHolding:
     case kReadInput: refusal = read(request, arrival, answer); break;
-    case kWriteOne: refusal = write_one(request, arrival, answer); break;
-    case kWriteMany: refusal = write_many(request, arrival, answer); break;
+    case kWriteOneFunction: refusal = write_one(request, arrival, answer); break;
+    case kWriteManyFunction: refusal = write_many(request, arrival, answer); break;
     case kWriteAndRead: refusal = write_and_read(request, arrival, answer, waits); break;
     default: break;
   }

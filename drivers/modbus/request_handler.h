@@ -13,6 +13,10 @@ namespace tubesight::drivers {
 inline constexpr std::int32_t kMostPduBytes = 253;
 using Pdu = core::StaticVector<std::uint8_t, kMostPduBytes>;
 
+/// The functions that may be sent to all units.
+inline constexpr std::uint8_t kWriteOneFunction = 6;
+inline constexpr std::uint8_t kWriteManyFunction = 16;
+
 /// Answers Modbus requests for one dialogue: functions 3 and 4 (alike), 6, 16 and 23.
 ///
 /// Bytes in, bytes out: no line, no clock, no heap. Whatever the request holds, there is an answer,

@@ -135,8 +135,10 @@ void SerialMaster::take(Found found, FieldTime arrival) {
     answer_ = conversation_.take(framer_.request(), arrival);
     return;
   }
-  static_cast<void>(conversation_.take(framer_.request(), arrival));
-  conversation_.abandon();  // to all: obeyed and not answered
+  const std::uint8_t function = framer_.request().front();
+  if (function == kWriteOneFunction || function == kWriteManyFunction) {
+    static_cast<void>(conversation_.take(framer_.request(), arrival));  // obeyed, not answered
+  }
 }
 
 void SerialMaster::abandon() {

@@ -224,10 +224,13 @@ TEST_F(ModbusRobotLinkTest, SurvivesWhatIsNoRequestAndCountsIt) {
   expect_answer();
   expect_silence(rtu_frame(0, {6, 1, 74, 2, 128}));
   EXPECT_EQ(ask(line_, {3, 1, 74, 0, 1}), (Bytes{3, 2, 2, 128})) << "obeyed, not answered";
+  expect_silence(rtu_frame(0, claim(1)));
+  expect_silence(rtu_frame(0, kReadMark));
+  EXPECT_EQ(ask(line_, {3, 0, 204, 0, 1}), (Bytes{3, 2, 0, 0})) << "only 6 and 16 are for all";
 
   EXPECT_EQ(counter(Register::kCrcErrors) + counter(Register::kCutFrames), 3u);
   EXPECT_EQ(counter(Register::kOtherUnits), 1u);
-  EXPECT_EQ(counter(Register::kBroadcasts), 1u);
+  EXPECT_EQ(counter(Register::kBroadcasts), 3u);
 }
 
 TEST_F(ModbusRobotLinkTest, RefusesWithExceptionsAtOnce) {

@@ -169,14 +169,16 @@ inline std::uint32_t long_at(const Bytes& bytes, std::size_t at) {
   return value;
 }
 
-/// The loop's thread: takes the robot's events and answers them.
+/// The loop's thread: takes the robot's events and answers them, and does what a field brings.
 class AnsweringLoop {
  public:
   using Answer = std::function<void(hal::RobotLink&, const core::Event&)>;
 
-  AnsweringLoop(hal::RobotLink& link, Answer answer)
-      : thread_([this, &link, answer = std::move(answer)] {
+  AnsweringLoop(
+      hal::RobotLink& link, Answer answer, std::function<void()> turn = [] {})
+      : thread_([this, &link, answer = std::move(answer), turn = std::move(turn)] {
           while (!done_) {
+            turn();
             const auto polled = link.poll_event();
             if (polled && polled->has_value()) {
               answer(link, **polled);
