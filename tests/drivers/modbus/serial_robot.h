@@ -68,8 +68,17 @@ class Pty {
   [[nodiscard]] const std::string& device() const { return device_; }
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
+  /// Sends all, waiting where the box is slower.
   void send(const Bytes& bytes) const {
-    EXPECT_EQ(write(descriptor_, bytes.data(), bytes.size()), std::ssize(bytes));
+    std::size_t sent = 0;
+    for (int attempt = 0; attempt < 1000 && sent < bytes.size(); ++attempt) {
+      const ssize_t count = write(descriptor_, bytes.data() + sent, bytes.size() - sent);
+      sent += count > 0 ? static_cast<std::size_t>(count) : 0;
+      if (sent < bytes.size()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+    EXPECT_EQ(sent, bytes.size());
   }
   /// What comes until nothing has come for so long.
   [[nodiscard]] Bytes receive(std::chrono::milliseconds patience) const {
