@@ -22,6 +22,7 @@ namespace tubesight::drivers {
 /// has said; the loop never waits for a line. That thread has the ordinary priority, whatever the
 /// priority of who starts it. Between start() and stop() nothing is allocated but where a line is
 /// opened again.
+// Final, and the port has no virtual destructor. NOLINTNEXTLINE(*-virtual-class-destructor)
 class ModbusRobotLink final : public hal::RobotLink {
  public:
   /// `clock` stamps the fields, outlives the link and is asked by the link's thread, too.

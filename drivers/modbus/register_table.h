@@ -177,8 +177,8 @@ enum class Block : std::uint8_t {
 /// Where a value stands and what its number means.
 struct RegisterRow {
   Register name;
-  std::uint16_t address;     ///< of its first word, from 0
   std::uint8_t width;        ///< words: 1 unsigned, 2 signed (counters and identities: modulo 2^32)
+  std::uint16_t address;     ///< of its first word, from 0
   std::int32_t per_unit;     ///< what 1 of the unit is in the register
   std::string_view unit;     ///< "mm", "px", "bits", "code"; empty: a plain number
   std::string_view label;    ///< its name in the document
@@ -187,10 +187,10 @@ struct RegisterRow {
 
 struct RegisterBlock {
   Block name;
-  std::string_view label;
+  bool writable;
   std::uint16_t first;
   std::uint16_t last;
-  bool writable;
+  std::string_view label;
 
   [[nodiscard]] constexpr bool holds(std::int32_t address, std::int32_t count) const {
     return address >= first && address + count - 1 <= last;
