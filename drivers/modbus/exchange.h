@@ -36,8 +36,9 @@ class Exchange {
   core::SpscQueue<core::Reply, 64> replies;  ///< to the robot: two steps' full of them
   core::Snapshot<Shown> shown;
   core::Snapshot<LinkHealth> health;
-  std::atomic<std::uint32_t> losses{0};  ///< messages that came garbled or found no room
-  std::atomic<bool> connected{false};    ///< there is a line
+  core::Snapshot<LinkCounters> counters;  ///< as they are, from the server
+  std::atomic<std::uint32_t> losses{0};   ///< messages that came garbled or found no room
+  std::atomic<bool> connected{false};     ///< there is a line
   std::atomic<bool> stopping{false};
 
   /// Wakes the server; never waits.

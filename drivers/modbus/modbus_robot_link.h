@@ -42,6 +42,15 @@ class ModbusRobotLink final : public hal::RobotLink {
   /// What the robot reads of the box's parts; any one thread, started or not.
   void set_health(const LinkHealth& health) { exchange_.health.publish(health); }
 
+  /// What has come over the line so far; false where it changes just now, or nothing came since
+  /// the first start. Any thread.
+  [[nodiscard]] bool counters(LinkCounters& counters) const {
+    return exchange_.counters.try_read(counters);
+  }
+
+  /// Whether there is a line or a port at present. Any thread.
+  [[nodiscard]] bool connected() const { return exchange_.connected.load(); }
+
   /// The port that masters of TCP come in at; 0: none. Needs: started.
   [[nodiscard]] std::int32_t tcp_port() const { return server_.tcp_port(); }
 

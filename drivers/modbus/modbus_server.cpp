@@ -113,6 +113,7 @@ void ModbusServer::accept_master() {
 
 void ModbusServer::tell_loop() {
   const LinkCounters& counters = state_.counters;
+  exchange_->counters.publish(counters);
   exchange_->losses.store(counters.crc_errors + counters.cut_frames + counters.dropped_events);
   exchange_->connected.store(serial_.is_open() || listener_.descriptor() >= 0);
 }
