@@ -91,6 +91,46 @@ void add_counters(JsonLine& line, const BoxCounters& counters) {
   line.close();
 }
 
+bool there_is_link(const BoxReport& report) { return report.link_kind != "none"; }
+
+/// Requests that came damaged, or in pieces, or found no room.
+std::uint32_t link_errors(const drivers::LinkCounters& counters) {
+  return counters.crc_errors + counters.cut_frames + counters.dropped_events;
+}
+
+std::string link_text(const BoxReport& report) {
+  std::string text(report.link_kind);
+  if (there_is_link(report)) {
+    const drivers::LinkCounters& counters = report.link.counters;
+    text += report.link.open ? ", open, " : ", not open, ";
+    text += std::to_string(counters.requests) + " requests, " +
+            std::to_string(link_errors(counters)) + " errors";
+  }
+  return text;
+}
+
+void add_link(JsonLine& line, const BoxReport& report) {
+  line.open("link").add("kind", report.link_kind);
+  if (there_is_link(report)) {
+    const drivers::LinkCounters& counters = report.link.counters;
+    const auto add = [&line](std::string_view key, std::uint32_t count) {
+      line.add(key, static_cast<std::int64_t>(count));
+    };
+    line.add("open", report.link.open);
+    add("requests", counters.requests);
+    add("answers", counters.answers);
+    add("exceptions", counters.exceptions);
+    add("errors", link_errors(counters));
+    add("other_units", counters.other_units);
+    add("late_claims", counters.late_claims);
+    add("abandoned_answers", counters.abandoned_answers);
+    add("reopenings", counters.reopenings);
+    add("response_worst_us", counters.response_worst_us);
+    add("claim_response_worst_us", counters.claim_response_worst_us);
+  }
+  line.close();
+}
+
 std::string sighting_text(const core::Sighting& sighting) {
   std::string text = std::string(core::name_of(sighting.state));
   if (sighting.reason != core::Reason::kNone) {
@@ -125,7 +165,7 @@ std::string status_text(const BoxReport& report) {
           std::to_string(tracking.late) + " later than the deadline";
   text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
                                           : std::string("nobody dims it"));
-  text += "\nlink      " + std::string(report.link_kind);
+  text += "\nlink      " + link_text(report);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
   return text;
@@ -147,7 +187,7 @@ std::string status_answer(const BoxReport& report) {
     line.add("late", tracking.late);
     line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille).close();
   }
-  line.open("link").add("kind", report.link_kind).close();
+  add_link(line, report);
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
@@ -177,7 +217,8 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                   tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille, " +
                                       std::to_string(tracking.counters.dimmer_errors) + " errors"
                                 : "nobody dims it"});
-  rows.push_back({"link", Verdict::kAbsent, std::string(report.link_kind)});
+  rows.push_back({"link", there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
+                  link_text(report)});
   rows.push_back({"disk", Verdict::kAbsent, "there is no recorder"});
   rows.push_back({"priority", report.priority == 0 ? Verdict::kAbsent : good_if(tracking.scheduled),
                   tracking.scheduled ? "SCHED_FIFO " + std::to_string(report.priority)

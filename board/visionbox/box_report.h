@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/kept_link.h"
 #include "board/visionbox/played_source.h"
 #include "board/visionbox/tracking_thread.h"
 
@@ -24,6 +25,7 @@ struct BoxReport {
   std::int64_t failures = 0;
 
   std::string_view link_kind;
+  LinkReport link;
   std::int32_t priority = 0;  ///< wanted
   bool memory_locked = false;
   bool lock_wanted = false;

@@ -23,7 +23,6 @@ using drivers::TableReader;
 constexpr std::array<std::string_view, 4> kBoxTables = {"source", "control", "realtime", "link"};
 constexpr std::array<std::string_view, 2> kSourceKinds = {"replay", "simulated"};
 constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
-constexpr std::array<std::string_view, 1> kLinkKinds = {"none"};
 
 constexpr drivers::WholeRange kPriority{0, 99};
 constexpr drivers::NumberRange kDeadline{0.1, 1000.0, " ms"};
@@ -111,7 +110,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.source = {};
   box.control_socket.clear();
   box.real_time = {};
-  box.link = LinkKind::kNone;
+  box.link = {};
   drivers::read_table(document, "source", true,
                       [&](TableReader& table) { read_source(document, table, box.source); });
   drivers::read_table(document, "control", false, [&](TableReader& table) {
@@ -119,12 +118,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   });
   drivers::read_table(document, "realtime", false,
                       [&](TableReader& table) { read_real_time(table, box.real_time); });
-  drivers::read_table(document, "link", false, [&](TableReader& table) {
-    std::size_t kind = 0;
-    if (table.word("kind", kLinkKinds, kind)) {
-      box.link = static_cast<LinkKind>(kind);
-    }
-  });
+  drivers::read_table(document, "link", false,
+                      [&](TableReader& table) { read_link(table, box.link); });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;

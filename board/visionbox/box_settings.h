@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "board/visionbox/link_settings.h"
 #include "board/visionbox/real_time.h"
 #include "core/base/result.h"
 #include "drivers/files/messages.h"
@@ -25,15 +26,12 @@ struct SourceSettings {
   bool script = false;    ///< play the robot and the operator that are written down, too
 };
 
-/// The robot's link; the order of the words of `kind`.
-enum class LinkKind : std::uint8_t { kNone };
-
 /// Everything that the box is started with. Some 900 KB: static or heap, never on a stack.
 struct BoxSettings {
   SourceSettings source;
   std::string control_socket;  ///< empty: nobody can ask
   RealTimeSettings real_time;
-  LinkKind link = LinkKind::kNone;
+  LinkSettings link;
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it
 

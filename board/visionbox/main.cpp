@@ -56,6 +56,7 @@ void serve(VisionBox& box, ControlDesk& desk, drivers::ControlServer& server, Bo
   while (!ended) {
     ended = server.serve(desk.busy() ? kBusy : kIdle, signals.fd());
     desk.serve_replies(server, monotonic_now());
+    box.look_after();
     watch.look(box.report());
   }
 }

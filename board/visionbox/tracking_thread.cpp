@@ -13,8 +13,9 @@ constexpr std::chrono::milliseconds kLongest{1000};
 
 }  // namespace
 
-TrackingThread::TrackingThread(Loop& loop, PlayedSource& source, const RealTimeSettings& settings)
-    : loop_(&loop), source_(&source), settings_(settings) {}
+TrackingThread::TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+                               const RealTimeSettings& settings)
+    : loop_(&loop), source_(&source), link_(link), settings_(settings) {}
 
 std::string TrackingThread::start() {
   stopping_ = false;
@@ -78,6 +79,30 @@ void TrackingThread::publish() {
   now_.lamp = loop_->input().lamp_dimmed;
   now_.lamp_permille = loop_->input().field.lamp_permille;
   latest_.publish(now_);
+  tell_robot();
+}
+
+void TrackingThread::tell_robot() {
+  if (link_ == nullptr) {
+    return;
+  }
+  using drivers::Health;
+  drivers::LinkHealth health;
+  const SourceState source = source_->state();
+  health.camera = source == SourceState::kPlaying   ? Health::kWell
+                  : source == SourceState::kOpening ? Health::kUnknown
+                                                    : Health::kFailed;
+  health.lamp_dimmed = now_.lamp;
+  if (now_.lamp) {
+    const bool failed = now_.counters.dimmer_errors > dimmer_errors_;
+    health.lamp = failed ? Health::kFailed : Health::kWell;
+    health.lamp_permille = now_.lamp_permille;
+  }
+  dimmer_errors_ = now_.counters.dimmer_errors;
+  health.fields = now_.counters.fields;
+  health.fields_missing = now_.counters.missing;
+  health.fields_late = now_.late;
+  link_->set_health(health);
 }
 
 }  // namespace tubesight::board

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "board/box/box_loop.h"
+#include "board/visionbox/kept_link.h"
 #include "board/visionbox/latency_histogram.h"
 #include "board/visionbox/played_source.h"
 #include "board/visionbox/real_time.h"
@@ -37,8 +38,10 @@ class TrackingThread {
  public:
   using Loop = BoxLoop<core::FixedPoint>;
 
-  /// All outlive the thread. The loop and the source are started by others.
-  TrackingThread(Loop& loop, PlayedSource& source, const RealTimeSettings& settings);
+  /// All outlive the thread. The loop and the source are started by others. The robot reads over
+  /// `link` how the box is doing; null: there is none.
+  TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+                 const RealTimeSettings& settings);
   TrackingThread(const TrackingThread&) = delete;
   TrackingThread& operator=(const TrackingThread&) = delete;
   ~TrackingThread() { stop(); }
@@ -58,15 +61,18 @@ class TrackingThread {
   void run();
   void measure();
   void publish();
+  void tell_robot();
 
   Loop* loop_;
   PlayedSource* source_;
+  KeptLink* link_;
   RealTimeSettings settings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::string no_priority_;  ///< why; written before ready_
   Wakeup ready_;
   TrackingStatus now_;
+  std::int64_t dimmer_errors_ = 0;  ///< at the turn before
   core::Snapshot<TrackingStatus> latest_;
   MonotonicTime next_without_{0};  ///< when a turn without a field is due
 };

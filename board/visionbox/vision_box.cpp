@@ -1,5 +1,6 @@
 #include "board/visionbox/vision_box.h"
 
+#include "board/visionbox/link_identity.h"
 #include "board/visionbox/replay_player.h"
 #include "board/visionbox/simulated_player.h"
 
@@ -18,6 +19,16 @@ std::unique_ptr<FieldPlayer> make_player(const BoxSettings& settings) {
                                         settings.source.script);
 }
 
+/// Null: there is none.
+std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Clock& clock,
+                                    const VisionBox::Tell& tell) {
+  if (settings.link.kind == LinkKind::kNone) {
+    return nullptr;
+  }
+  return std::make_unique<KeptLink>(settings.link.modbus, link_identity(settings.told()), clock,
+                                    tell);
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
@@ -25,9 +36,10 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       tell_(std::move(tell)),
       player_(make_player(settings)),
       source_(*player_, source_settings(), tell_),
+      kept_link_(make_link(settings, source_.clock(), tell_)),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
-      tracking_(loop_, source_, settings.real_time) {}
+      tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
 
 PlayedSourceSettings VisionBox::source_settings() const {
   const core::CameraSettings& camera = settings_->told().camera;
@@ -38,10 +50,13 @@ PlayedSourceSettings VisionBox::source_settings() const {
   return source;
 }
 
-/// A link of another kind than none takes the scripted one's place here.
+/// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
-  return {&source_, &source_.clock(), player_->has_lamp() ? &dimmer_ : nullptr, &scripted_link_,
-          &station_};
+  hal::RobotLink* link = kept_link_.get();
+  if (link == nullptr) {
+    link = &scripted_link_;
+  }
+  return {&source_, &source_.clock(), player_->has_lamp() ? &dimmer_ : nullptr, link, &station_};
 }
 
 Result<void> VisionBox::start_without_tracking() {
@@ -55,7 +70,7 @@ Result<void> VisionBox::start_without_tracking() {
   started_at_ = monotonic_now();
   TUBESIGHT_TRY(source_.start());
   if (const auto started = loop_.start(); !started) {
-    tell_("lamp or link cannot be started");
+    tell_("the lamp cannot be started");
     source_.stop();
     started_ = false;
     return started;
@@ -90,6 +105,12 @@ void VisionBox::stop() {
   source_.stop();
 }
 
+void VisionBox::look_after() {
+  if (kept_link_ != nullptr) {
+    kept_link_->look_after(monotonic_now());
+  }
+}
+
 BoxReport VisionBox::report() const {
   BoxReport report;
   report.turned = tracking_.status(report.tracking);
@@ -99,7 +120,8 @@ BoxReport VisionBox::report() const {
   report.span = source_.span();
   report.passes = source_.passes();
   report.failures = source_.failures();
-  report.link_kind = "none";
+  report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
+  report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;

@@ -10,6 +10,7 @@
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/field_player.h"
+#include "board/visionbox/kept_link.h"
 #include "board/visionbox/played_source.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/script_ports.h"
@@ -36,8 +37,8 @@ class VisionBox {
   VisionBox& operator=(const VisionBox&) = delete;
   ~VisionBox() { stop(); }
 
-  /// Starts everything; the box then waits for a start. Errors: kNotReady started already, and
-  /// those of lamp and link, told.
+  /// Starts everything; the box then waits for a start. A link that cannot be opened is told and
+  /// tried again. Errors: kNotReady started already, and those of the lamp, told.
   [[nodiscard]] core::Result<void> start();
 
   /// The same but for the tracking thread: the caller makes the turns of tracking() himself.
@@ -45,6 +46,10 @@ class VisionBox {
 
   /// Stops everything; the lamp goes dark.
   void stop();
+
+  /// Does what is left to do beside the tracking: opens a link that could not be opened. To be
+  /// called now and then, on the thread that started the box.
+  void look_after();
 
   [[nodiscard]] BoxReport report() const;
 
@@ -68,7 +73,8 @@ class VisionBox {
 
   drivers::SocketStation socket_station_;
   ScriptedLink scripted_link_{source_};
-  ScriptedStation station_{source_, socket_station_, true};
+  std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
+  ScriptedStation station_{source_, socket_station_, kept_link_ == nullptr};
 
   core::session::Session<core::FixedPoint> session_;
   PoseService poses_;

@@ -47,7 +47,7 @@ TEST_F(BoxSettingsTest, LittleIsEnough) {
   EXPECT_EQ(box_->real_time.priority, 50);
   EXPECT_TRUE(box_->real_time.lock_memory);
   EXPECT_EQ(box_->real_time.deadline_ms, 10.0);
-  EXPECT_EQ(box_->link, LinkKind::kNone);
+  EXPECT_EQ(box_->link.kind, LinkKind::kNone);
   EXPECT_EQ(box_->session.settings.start.tubes.size(), 3);
 }
 
@@ -74,7 +74,7 @@ TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
            std::string(200, 'x') +
            "\"\n"
            "[realtime]\npriority = 100\nlock_memory = \"yes\"\ndeadline_ms = 0\n"
-           "[link]\nkind = \"modbus\"\n[recorder]\n"));
+           "[link]\nkind = \"pigeon\"\n[recorder]\n"));
 
   EXPECT_TRUE(told("box.toml:3: source.kind: "));
   EXPECT_TRUE(told("box.toml:4: source.at_end: "));
@@ -85,9 +85,80 @@ TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
   EXPECT_TRUE(told("box.toml:11: realtime.priority: 100"));
   EXPECT_TRUE(told("box.toml:12: realtime.lock_memory: "));
   EXPECT_TRUE(told("box.toml:13: realtime.deadline_ms: 0"));
-  EXPECT_TRUE(told("box.toml:15: link.kind: the text 'modbus', expected \"none\""));
+  EXPECT_TRUE(told("box.toml:15: link.kind: the text 'pigeon', expected \"none\" or \"modbus\""));
   EXPECT_TRUE(told("box.toml:16: [recorder]: unknown table"));
   EXPECT_EQ(messages_.size(), 11U);
+}
+
+TEST_F(BoxSettingsTest, ALinkHasModbussOwnDefaults) {
+  ASSERT_TRUE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\n"))
+      << messages_.front();
+
+  EXPECT_EQ(box_->link.kind, LinkKind::kModbus);
+  const drivers::ModbusSettings& modbus = box_->link.modbus;
+  EXPECT_EQ(modbus.serial.line.device, "/dev/ttyS9");
+  EXPECT_EQ(modbus.serial.line.baud, 19'200);
+  EXPECT_EQ(modbus.serial.line.parity, drivers::SerialParity::kEven);
+  EXPECT_EQ(modbus.serial.line.stop_bits, 1);
+  EXPECT_FALSE(modbus.serial.line.rs485);
+  EXPECT_EQ(modbus.serial.unit, 1);
+  EXPECT_EQ(modbus.word_order, drivers::WordOrder::kHighFirst);
+  EXPECT_LT(modbus.tcp_port, 0) << "off";
+}
+
+TEST_F(BoxSettingsTest, EveryKeyOfALinkIsRead) {
+  ASSERT_TRUE(load(std::string(kSource) +
+                   "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\nbaud = 115200\n"
+                   "parity = \"none\"\nstop_bits = 2\nrs485 = true\nunit = 247\n"
+                   "word_order = \"low-first\"\ntcp_address = \"0.0.0.0\"\ntcp_port = 502\n"))
+      << messages_.front();
+
+  const drivers::ModbusSettings& modbus = box_->link.modbus;
+  EXPECT_EQ(modbus.serial.line.baud, 115'200);
+  EXPECT_EQ(modbus.serial.line.parity, drivers::SerialParity::kNone);
+  EXPECT_EQ(modbus.serial.line.stop_bits, 2);
+  EXPECT_TRUE(modbus.serial.line.rs485);
+  EXPECT_EQ(modbus.serial.unit, 247);
+  EXPECT_EQ(modbus.word_order, drivers::WordOrder::kLowFirst);
+  EXPECT_EQ(modbus.tcp_address, "0.0.0.0");
+  EXPECT_EQ(modbus.tcp_port, 502);
+}
+
+TEST_F(BoxSettingsTest, EveryMistakeOfALinkIsTold) {
+  EXPECT_FALSE(load(std::string(kSource) +
+                    "[link]\nkind = \"modbus\"\ndevice = \"ttyUSB0\"\nbaud = 19201\n"
+                    "parity = \"mark\"\nstop_bits = 3\nrs485 = 1\nunit = 248\n"
+                    "word_order = \"big\"\ntcp_address = \"localhost\"\ntcp_port = 0\n"
+                    "speed = 1\n"));
+
+  EXPECT_TRUE(told("box.toml:7: link.device: 'ttyUSB0', expected a path from the root"));
+  EXPECT_TRUE(told("box.toml:8: link.baud: 19201, expected a usual rate"));
+  EXPECT_TRUE(told("box.toml:9: link.parity: "));
+  EXPECT_TRUE(told("box.toml:10: link.stop_bits: 3"));
+  EXPECT_TRUE(told("box.toml:11: link.rs485: "));
+  EXPECT_TRUE(told("box.toml:12: link.unit: 248"));
+  EXPECT_TRUE(told("box.toml:13: link.word_order: "));
+  EXPECT_TRUE(told("box.toml:14: link.tcp_address: 'localhost', expected four numbers"));
+  EXPECT_TRUE(told("box.toml:15: link.tcp_port: 0"));
+  EXPECT_TRUE(told("box.toml:16: link.speed: unknown key"));
+  EXPECT_EQ(messages_.size(), 10U);
+}
+
+TEST_F(BoxSettingsTest, AModbusLinkNeedsALineAndKeysThatNobodyObeysAreMistakes) {
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\n"));
+  EXPECT_TRUE(told("link.kind: modbus without a line, expected a device, a tcp_port or both"));
+  EXPECT_EQ(messages_.size(), 1U);
+
+  EXPECT_FALSE(
+      load(std::string(kSource) + "[link]\nkind = \"modbus\"\ntcp_port = 1502\nbaud = 9600\n"));
+  EXPECT_TRUE(told("link.baud: of a serial line, which needs a device"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\n"
+                                           "tcp_address = \"0.0.0.0\"\n"));
+  EXPECT_TRUE(told("link.tcp_address: of TCP, which needs a tcp_port"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"none\"\nunit = 1\n"));
+  EXPECT_TRUE(told("link.unit: of another kind of link, expected it left out"));
 }
 
 TEST_F(BoxSettingsTest, MistakesOfTheSessionAreToldWithThem) {

@@ -63,6 +63,25 @@ TEST(SelfTest, FindsEachFault) {
   report = good_report();
   report.memory_locked = false;
   EXPECT_EQ(bad_row(report), "memory");
+  report = good_report();
+  report.link_kind = "modbus";
+  EXPECT_EQ(bad_row(report), "link");
+}
+
+TEST(SelfTest, TellsHowTheRobotsLinkIsDoing) {
+  BoxReport report = good_report();
+  report.link_kind = "modbus";
+  report.link.open = true;
+  report.link.counters.requests = 1234;
+  report.link.counters.crc_errors = 2;
+  report.link.counters.cut_frames = 3;
+
+  EXPECT_EQ(bad_row(report), "");
+  EXPECT_NE(self_test_answer(report).find(
+                R"("link":{"verdict":"good","words":"modbus, open, 1234 requests, 5 errors"})"),
+            std::string::npos);
+  EXPECT_NE(status_answer(report).find(R"("link":{"kind":"modbus","open":true,"requests":1234,)"),
+            std::string::npos);
 }
 
 TEST(SelfTest, WhatIsNotWantedIsAbsentAndNotBad) {

@@ -1,5 +1,6 @@
 // The tracking thread allocates nothing after the start, while the thread of the source reads a
-// recording, that of poses computes one, and a client asks.
+// recording, that of poses computes one, that of the robot's link waits for masters, and a client
+// asks.
 
 #include <memory>
 #include <string>
@@ -23,6 +24,8 @@ TEST(TrackingHeap, IsNotTouchedByATurn) {
                                              drivers::kReplayNeeds, settings->session, messages));
   settings->source.recording = std::string(kFolder) + "recording.y4m.xz";
   settings->source.script = true;
+  settings->link.kind = LinkKind::kModbus;
+  settings->link.modbus.tcp_port = 0;
   const auto box = std::make_unique<VisionBox>(*settings, [](const std::string&) {});
   ASSERT_TRUE(box->start_without_tracking());
   int tracked = 0;
