@@ -32,8 +32,10 @@ TEST(DaemonSystem, TracksByItsScriptAndTellsHowItIsDoing) {
   box.write_settings("script = true\n");
   ASSERT_TRUE(box.start_and_wait()) << box.said();
 
-  const std::string status = box.wait_for("\"state\":\"tracking\"", kLong);
+  // Each pass begins under that tube; a status may be of any moment.
+  const std::string status = box.wait_for("\"tube\":\"40,60\"", kLong);
 
+  EXPECT_TRUE(has(status, "\"state\":\"tracking\"")) << status;
   EXPECT_TRUE(has(status, "\"protocol\":1,\"ok\":true")) << status;
   EXPECT_TRUE(has(status, "\"tube\":\"40,60\"")) << status;
   const Answered text = box.ask({"status"});
