@@ -24,6 +24,7 @@ struct LinkReport {
 ///
 /// Opening takes its time and the heap, and is the business of the thread that starts the box and
 /// looks after it; the tracking thread sees a link that is gone meanwhile.
+// Final, and the port has no virtual destructor. NOLINTNEXTLINE(*-virtual-class-destructor)
 class KeptLink final : public hal::RobotLink {
  public:
   using Tell = std::function<void(const std::string&)>;
