@@ -17,6 +17,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "drivers/control/json_line.h"
 #include "drivers/scenario/scenario_file.h"
 #include "drivers/simulated/simulated_world.h"
 #include "tests/drivers/modbus/serial_robot.h"
@@ -160,8 +161,8 @@ TEST_F(RobotLinkSystem, AnswersEachOfTwentyClaimsASecondByTheTruth) {
     ASSERT_TRUE(box.start_and_wait()) << box.said();
     run = run_robot(address(port), "13");
     const std::string status = box.ask({"status", "--json"}).out;
-    EXPECT_TRUE(has(status, "\"link\":{\"kind\":\"modbus\",\"open\":true,\"requests\":5"))
-        << status;
+    EXPECT_TRUE(has(status, "\"link\":{\"kind\":\"modbus\",\"open\":true")) << status;
+    EXPECT_GT(drivers::find_json_number(status, "requests", 0), run.status == 0 ? 520 : 0);
     if (run.status != 0 || !lacked_fields(run)) {
       break;
     }
@@ -198,14 +199,15 @@ TEST_F(RobotLinkSystem, AnswersOverASerialLineToo) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// The registers `sighting_valid` and `aligned`, by mbpoll.
-std::string polled_alignment(int port) {
-  const std::string where = std::to_string(port);
-  const std::vector<std::string> common{"-m", "tcp", "-p", where, "-a", "1", "-0", "-1", "-q"};
-  std::vector<std::string> words = common;
-  words.insert(words.end(), {"-t", "4", "-r", "145", "-c", "1", "127.0.0.1"});
-  return run_program("/usr/bin/mbpoll", words).out;
+/// One register, by mbpoll.
+std::string polled(int port, const std::string& address) {
+  return run_program("/usr/bin/mbpoll", {"-m", "tcp", "-p", std::to_string(port), "-0", "-1", "-q",
+                                         "-t", "4", "-r", address, "-c", "1", "127.0.0.1"})
+      .out;
 }
+
+/// The register `aligned`.
+std::string polled_alignment(int port) { return polled(port, "145"); }
 
 TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNothing) {
   Daemon box;
@@ -215,6 +217,7 @@ TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNot
   const Answered before = run_robot(address(port), "1");
   ASSERT_TRUE(has(before.out, " AGREE tube 40,60 ")) << before.out << before.err;
   EXPECT_TRUE(has(polled_alignment(port), "[145]: \t1")) << polled_alignment(port);
+  EXPECT_TRUE(has(polled(port, "501"), "[501]: \t1")) << "camera_health: well";
   box.signal(SIGKILL);
   ASSERT_EQ(box.wait_for_end(kLong), -1);
 
@@ -234,10 +237,26 @@ TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNot
   EXPECT_TRUE(has(after.out, " AGREE tube 40,60 ")) << after.out;
 }
 
+TEST_F(RobotLinkSystem, TheRobotReadsThatTheSourceHasEnded) {
+  Daemon box;
+  const int port = free_port();
+  box.write_settings("at_end = \"end\"\n" + tcp_link(port));
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+
+  ASSERT_TRUE(has(box.wait_for("\"state\":\"ended\"", kLong), "\"ended\"")) << box.said();
+
+  // camera_health: failed; lamp_mode_now: nobody dims it.
+  EXPECT_TRUE(has(polled(port, "501"), "[501]: \t2")) << polled(port, "501");
+  EXPECT_TRUE(has(polled(port, "505"), "[505]: \t0")) << polled(port, "505");
+}
+
 TEST_F(RobotLinkSystem, ABoxWhoseLineIsMissingServesItsOperatorAndTakesTheLineWhenItComes) {
   Daemon box;
   const std::string device = box.folder().path("line");
   box.write_simulated_settings(serial_link(device));
+  const Answered check = run_program(TUBESIGHT_DAEMON, {box.settings(), "--check"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(check.err, "") << "no device is looked for";
   ASSERT_TRUE(box.start_and_wait()) << box.said();
   EXPECT_TRUE(has(box.said(), "link: cannot be opened: " + device + ": No such file"))
       << box.said();
