@@ -7,8 +7,8 @@ LINE is the box's address and port, "127.0.0.1:1502", or a serial line, "/dev/tt
 and parity (these are the defaults; N: none). In turn the program claims the tube that the box reports
 and a wrong one beside it, RATE times a second, 20 by default. It needs Debian's python3-pymodbus.
 
-Of what the document of the link asks of a robot it has what none can do without: it looks at the mark,
-the boot number and the bits that say what is known, and takes a verdict only with its own claim in it.
+Of what the document of the link asks of a robot it has what none can do without: it looks at map and
+mark, the boot number and the bits that say what is known, and takes a verdict only with its own claim.
 """
 import itertools
 import sys
@@ -100,9 +100,9 @@ def text(tube):
 
 def main(line, seconds, rate=20.0):
     master = connect(line)
-    mark = read(master, 2, 2)
-    if mark != words(0x01020304):
-        sys.exit(f"the words come in another order: {mark}")
+    version, _, *mark = read(master, 0, 4)
+    if mark != words(0x01020304) or version != 1:
+        sys.exit(f"another map or another order of the words: {version}, {mark}")
     tube, vouched, boot = sighting(master)
     print(f"boot {boot}, tube {text(tube)}, {'' if vouched else 'not '}vouched for")
     refused = start(master)
