@@ -11,10 +11,10 @@ namespace tubesight::hal {
 
 /// The line to the robot's controller: it asks, the box answers.
 ///
-/// The robot sends claims, starts, lamp commands and pose requests. A message is either delivered
-/// whole and unchanged or not at all; what the line garbles is found by the driver, dropped, and
-/// reported. Nothing is sent twice by the link: who gets no reply asks again. One thread calls all
-/// functions.
+/// The robot sends claims, starts, picks, lamp commands and pose requests. A message is either
+/// delivered whole and unchanged or not at all; what the line garbles is found by the driver,
+/// dropped, and reported. Nothing is sent twice by the link: who gets no reply asks again. One
+/// thread calls all functions.
 class RobotLink {
  public:
   /// Opens the line. A robot need not be there yet. Needs: not started. After an error the link is
@@ -29,8 +29,10 @@ class RobotLink {
 
   /// Takes the next message of the robot, in the order of their arrival; empty: none has come.
   ///
-  /// Never waits. Kinds: Claim, Start, LampCommand, PoseRequest; others never come. A start has
-  /// at most core::kMaxStartPoints tubes, a lamp command is within 0..1000, as the driver checks.
+  /// Never waits. Kinds: Claim, Start, Pick, LampCommand, PoseRequest; others never come. A start
+  /// has at most core::kMaxStartPoints tubes, a lamp command is within 0..1000, as the driver
+  /// checks. The lower 32 bits of an event's id are the robot's own number; above them a link may
+  /// count, so that the answer to one event is never taken for that to another of the same number.
   ///
   /// Errors: kDataLoss a message came garbled and was dropped, or so many waited that one was: call
   /// again, the next may be sound; kDisconnected the robot is gone (the link stays started and

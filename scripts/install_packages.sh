@@ -14,6 +14,7 @@ bench=(
   libpng-dev            # overlay pictures
   libtomlplusplus-dev   # settings
   libcli11-dev          # the command line
+  libmodbus-dev         # the robot's link
 )
 test=(
   libgtest-dev          # tests on the PC
@@ -25,6 +26,9 @@ test=(
   clang-tidy            # preset bench-tidy
   valgrind              # callgrind: instructions per field
   python3               # tests/checks/
+  mbpoll                # a foreign master for the robot's link
+  python3-pymodbus      # and another, with what it needs for a serial line:
+  python3-serial-asyncio #
   groff-base            # check manual: the manual page is rendered
   g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
   qemu-user-static      # runs its tests

@@ -4,7 +4,7 @@
 # Usage: toolchain/arm64_sysroot.sh FOLDER
 #
 # Why not install them beside the PC's (multiarch): that would pull in the arm64 C library and bring
-# every shared library of the PC to the same patch level; for six libraries to link against, that is
+# every shared library of the PC to the same patch level; for some libraries to link against, that is
 # too much to ask. Here nothing of the system is changed, and no root is needed. The C and C++
 # libraries come with the cross compiler (libc6-dev-arm64-cross, libstdc++-12-dev-arm64-cross).
 set -euo pipefail
@@ -15,6 +15,8 @@ packages=(
   liblzma-dev          # .y4m.xz recordings: drivers/files
   libeigen3-dev        # core/base
   libtomlplusplus-dev  # drivers/settings
+  libmodbus5           # drivers/modbus: a shared library
+  libmodbus-dev        # and its header
   libcli11-dev         # board/bench
 )
 
@@ -61,6 +63,7 @@ for deb in "$work"/debs/*.deb; do
   dpkg-deb -x "$deb" "$sysroot"
 done
 # The shared libraries are left out: programs for emulated tests are linked against the archives and
-# then run with nothing but the cross compiler's C library.
-find "$sysroot/usr/lib/aarch64-linux-gnu" -name '*.so*' -delete
+# then run with nothing but the cross compiler's C library. Only libmodbus has no archive; programs find
+# it by the folder that they were linked with.
+find "$sysroot/usr/lib/aarch64-linux-gnu" -name '*.so*' ! -name 'libmodbus.so*' -delete
 printf '%s\n' "$wanted" > "$stamp"

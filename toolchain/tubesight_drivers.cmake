@@ -16,7 +16,7 @@
 
 include_guard(GLOBAL)
 
-set(TUBESIGHT_BOARDS bench CACHE STRING "Boards to build, folders of board/ (box always is)")
+set(TUBESIGHT_BOARDS "bench;visionbox" CACHE STRING "Boards to build, folders of board/ (box always is)")
 set(TUBESIGHT_DRIVERS "" CACHE STRING
   "Drivers to build, folders of drivers/, beside those that the boards need")
 

@@ -10,6 +10,7 @@
 
 #include "board/bench/campaign/campaign_command.h"
 #include "board/bench/campaign/campaign_options.h"
+#include "board/bench/devices/devices_command.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
 #include "board/bench/replay/replay_command.h"
@@ -242,10 +243,15 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
+  const CLI::App* const devices = app.add_subcommand(
+      "devices", "Serial ports of this machine, as the settings of a box name them");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return answer(app, problem);
+  }
+  if (devices->parsed()) {
+    return run_devices();
   }
   if (pose->parsed()) {
     return run_pose(pose_options);

@@ -19,7 +19,7 @@ _tubesight() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
       -*) _tubesight_words -h --help --version ;;
-      *) _tubesight_words replay pose simulate campaign ;;
+      *) _tubesight_words replay pose simulate campaign devices ;;
     esac
     return
   fi
@@ -42,6 +42,10 @@ _tubesight() {
       options="-h --help --reduce --without-margin-check"
       taking="--moves --fields --hours --seed --first-move --jobs --resume --report --merge"
       taking+=" --replay-move --out"
+      ;;
+    devices)
+      options="-h --help"
+      taking=""
       ;;
     *) return ;;
   esac

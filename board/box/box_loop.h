@@ -7,7 +7,7 @@
 
 #include "board/box/frame_view.h"
 #include "board/box/overlay_snapshot.h"
-#include "board/box/pose_service.h"
+#include "board/box/pose_desk.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/result.h"
@@ -34,8 +34,8 @@ struct BoxPorts {
 
 /// What works beside the tracking; null: nobody needs it. All outlive the loop.
 struct BoxServices {
-  PoseService* poses = nullptr;  ///< null: pose results come as events, or never
-  FrameView* view = nullptr;     ///< keeps the two last fields for display
+  PoseDesk* poses = nullptr;  ///< null: pose results come as events, or never
+  FrameView* view = nullptr;  ///< keeps the two last fields for display
   core::Snapshot<OverlaySnapshot>* overlay = nullptr;  ///< what the marks are drawn from
   bool estimates = false;  ///< with the places where tubes are expected in it
 };

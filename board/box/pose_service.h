@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "board/box/pose_desk.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/reply.h"
@@ -15,18 +16,19 @@
 namespace tubesight::board {
 
 /// Serves pose requests: averages the fields from an order on, fits, and hands the
-/// result back as the event before the next field. A box does the same beside its tracking thread.
-class PoseService {
+/// result back as the event before the next field. On the thread that calls it: a box puts it
+/// behind a PoseHandover, beside its tracking thread.
+class PoseService final : public PoseDesk {
  public:
   /// Errors as make_pose_model() and SheetMap::assign(). Call once, before the first field.
   [[nodiscard]] core::Result<void> configure(const core::SessionSettings& settings);
 
   /// Takes a field that was stepped, and the order that the step left. Computes when there are
   /// enough fields, which takes some tens of milliseconds.
-  void take(const core::Field& field, std::int64_t number, const core::PoseOrder& order);
+  void take(const core::Field& field, std::int64_t number, const core::PoseOrder& order) override;
 
   /// The event to hand over before the next field, once.
-  [[nodiscard]] std::optional<core::Event> take_result();
+  [[nodiscard]] std::optional<core::Event> take_result() override;
 
   /// Number of the field before which a request came that waits for more fields, or has its result
   /// not handed over yet; -1 without one. At the recording's end nobody answers it.

@@ -1,8 +1,5 @@
 #include "drivers/settings/session_settings.h"
 
-#include <array>
-#include <string_view>
-
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_tables.h"
 #include "drivers/settings/settings_document.h"
@@ -13,10 +10,6 @@ namespace tubesight::drivers {
 namespace {
 
 using core::Result;
-
-constexpr std::array<std::string_view, 10> kTables = {
-    "camera", "camera_quality", "tool",  "tool_quality", "tubesheet",
-    "start",  "motion",         "edges", "verification", "base"};
 
 void read_all(SettingsDocument& document, NeededTables needed, SessionFile& session) {
   core::SessionSettings& to = session.settings;
@@ -48,14 +41,7 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
 
 }  // namespace
 
-Result<void> load_session_settings(const std::string& path, NeededTables needed,
-                                   SessionFile& session, Messages& messages) {
-  DiskFiles files;
-  return load_session_settings(files, path, needed, session, messages);
-}
-
-Result<void> load_session_settings(TextFiles& files, const std::string& path, NeededTables needed,
-                                   SessionFile& session, Messages& messages) {
+void read_session(SettingsDocument& document, NeededTables needed, SessionFile& session) {
   // Member by member: a temporary of the whole would lie on the stack.
   session.settings.camera = {};
   session.settings.tool = {};
@@ -67,11 +53,22 @@ Result<void> load_session_settings(TextFiles& files, const std::string& path, Ne
   session.settings.verification = {};
   session.camera_quality = {};
   session.tool_quality = {};
-  SettingsDocument document;
-  document.load(files, path, kTables);
   read_all(document, needed, session);
   session.has_tool = document.find("tool") != nullptr;
   session.has_start = document.find("start") != nullptr;
+}
+
+Result<void> load_session_settings(const std::string& path, NeededTables needed,
+                                   SessionFile& session, Messages& messages) {
+  DiskFiles files;
+  return load_session_settings(files, path, needed, session, messages);
+}
+
+Result<void> load_session_settings(TextFiles& files, const std::string& path, NeededTables needed,
+                                   SessionFile& session, Messages& messages) {
+  SettingsDocument document;
+  document.load(files, path, kSessionTables);
+  read_session(document, needed, session);
   return document.report(messages);
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 #include "core/base/settings.h"
 #include "drivers/files/messages.h"
 #include "drivers/settings/session_tables.h"
+#include "drivers/settings/settings_document.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
@@ -33,6 +36,15 @@ struct SessionFile {
   CalibrationQuality camera_quality;
   CalibrationQuality tool_quality;
 };
+
+/// The tables of a session.
+inline constexpr std::array<std::string_view, 10> kSessionTables = {
+    "camera", "camera_quality", "tool",  "tool_quality", "tubesheet",
+    "start",  "motion",         "edges", "verification", "base"};
+
+/// Reads the session's tables of a document that may have others, too; mistakes go to its problems.
+/// Everything in `session` is replaced.
+void read_session(SettingsDocument& document, NeededTables needed, SessionFile& session);
 
 /// Reads a session's settings from `path` and the files that it includes.
 ///

@@ -17,6 +17,7 @@ bool sound(const Event& event) {
   }
   return core::content_if<core::Claim>(event) != nullptr ||
          core::content_if<core::Start>(event) != nullptr ||
+         core::content_if<core::Pick>(event) != nullptr ||
          core::content_if<core::PoseRequest>(event) != nullptr;
 }
 

@@ -15,8 +15,11 @@ import tempfile
 
 from source_text import report
 
-WANTED = ["bin/tubesight", "share/man/man1/tubesight.1", "share/doc/tubesight/README.md",
-          "share/doc/tubesight/LICENSE", "share/bash-completion/completions/tubesight"]
+PROGRAMS = ["tubesight", "tubesightctl", "tubesightd"]
+WANTED = ["share/doc/tubesight/README.md", "share/doc/tubesight/LICENSE"] + [
+    name for program in PROGRAMS for name in (
+        f"bin/{program}", f"share/man/man1/{program}.1",
+        f"share/bash-completion/completions/{program}")]
 RECORDING = "tests/data/recordings/square_flush"
 
 
@@ -34,23 +37,26 @@ def check_files(prefix, source, build):
     wanted = documents | set(WANTED)
     problems = [f"{name}: not installed" for name in sorted(wanted - installed)]
     problems += [f"{name}: installed without need" for name in sorted(installed - wanted)]
-    for name in sorted(installed - {"bin/tubesight"}):
+    for name in sorted(installed - {f"bin/{program}" for program in PROGRAMS}):
         content = (prefix / name).read_bytes()
         if str(build).encode() in content or str(prefix).encode() in content:
             problems.append(f"{name}: names a folder of this machine")
     return problems
 
 
-def check_dynamic(text):
+def check_dynamic(program, text):
     """Of what readelf tells: the folders in which the program looks for libraries."""
-    return [f"bin/tubesight: {line.strip()}" for line in text.splitlines()
+    return [f"bin/{program}: {line.strip()}" for line in text.splitlines()
             if re.search(r"\((RPATH|RUNPATH)\)", line)]
 
 
 def check_program(prefix, source):
+    problems = []
+    for name in PROGRAMS:
+        status, said = run(prefix / "bin" / name, "--version")
+        if status != 0 or not said.startswith(f"{name} "):
+            problems.append(f"{name} --version: {status} {said}")
     program = prefix / "bin/tubesight"
-    status, said = run(program, "--version")
-    problems = [] if status == 0 and said.startswith("tubesight ") else [f"--version: {status} {said}"]
     fields = prefix / "fields.csv"
     status, said = run(program, "replay", source / RECORDING / "session.toml",
                        source / RECORDING / "recording.y4m.xz", "--fields", fields)
@@ -67,7 +73,8 @@ def check(cmake, build, source, readelf):
         if status != 0:
             return [f"cmake --install: {status} {said}"]
         problems = check_files(prefix, source, build)
-        problems += check_dynamic(run(readelf, "-d", prefix / "bin/tubesight")[1])
+        for program in PROGRAMS:
+            problems += check_dynamic(program, run(readelf, "-d", prefix / "bin" / program)[1])
         return problems + check_program(prefix, source)
 
 
@@ -79,20 +86,25 @@ def self_test():
                    "share/doc/tubesight/README.md": f"see {root / 'build'}\n",
                    "share/doc/tubesight/LICENSE": "", "share/doc/tubesight/docs/a.md": "",
                    "share/more": ""}
+        for name in PROGRAMS[1:]:
+            planted.update({f"bin/{name}": f"#!/bin/sh\necho {name} 1\n",
+                            f"share/man/man1/{name}.1": "",
+                            f"share/bash-completion/completions/{name}": ""})
         for name, text in planted.items():
             (prefix / name).parent.mkdir(parents=True, exist_ok=True)
             (prefix / name).write_text(text, encoding="utf-8")
-        (prefix / "bin/tubesight").chmod(0o755)
+        for name in PROGRAMS:
+            (prefix / "bin" / name).chmod(0o755)
         for name in ("a.md", "pictures/b.png", "man/c.1"):
             (source / "docs" / name).parent.mkdir(parents=True, exist_ok=True)
             (source / "docs" / name).write_text("", encoding="utf-8")
         found = check_files(prefix, source, root / "build") + check_program(prefix, source)
-    found += check_dynamic(" 0x1 (NEEDED) [libc.so.6]\n 0x1d (RUNPATH) Library runpath: [/x]\n")
+    found += check_dynamic("tubesight", " 0x1 (NEEDED) [libc.so.6]\n 0x1d (RUNPATH) Library runpath: [/x]\n")
     expected = ["share/bash-completion/completions/tubesight: not installed",
                 "share/doc/tubesight/docs/pictures/b.png: not installed",
                 "share/more: installed without need",
                 "share/doc/tubesight/README.md: names a folder of this machine",
-                "--version: 3", "replay: 3", "bin/tubesight: 0x1d (RUNPATH)"]
+                "tubesight --version: 3", "replay: 3", "bin/tubesight: 0x1d (RUNPATH)"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     return report("install --self-test", [] if good else [f"expected {expected}, reported {found}"],

@@ -45,8 +45,13 @@ MAY_INCLUDE = {
     # share (places and messages), and is the library that a recording as a frame grabber stands on.
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
+    "drivers/modbus": BASE + ["hal"],
     "drivers/simulated": BASE + ["hal", "core/tubesheet", "core/rendering", "core/kinematics"],
 }
+MAY_INCLUDE["drivers/scenario"] = [
+    # Reads what the simulated world plays, and lets a session judge whether it can be tracked.
+    *MAY_INCLUDE["drivers/simulated"], "core/session", "drivers/files", "drivers/settings",
+    "drivers/simulated"]
 ANY_DRIVER = BASE + ["hal"]
 # What all boards share. It knows the ports and no adapter, so that any board can bring its own.
 BOX = "board/box"
@@ -61,9 +66,10 @@ EIGEN_FOLDERS = ("core/base", "core/math", "core/picture", "core/pose", "core/ca
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
     cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string
     system_error thread unordered_map unordered_set vector""".split())
-POSIX = re.compile(r"^(errno|fcntl|poll|signal|unistd|sys/[a-z_]+)\.h$")
+POSIX = re.compile(r"^(errno|fcntl|poll|sched|signal|unistd|sys/[a-z_]+)\.h$")
 DRIVER_LIBRARY = {
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
+    "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),
     "drivers/settings": re.compile(r"^toml\+\+/"),
     "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it
 }

@@ -34,6 +34,12 @@ OFFERED = [
     ("campaign --merge f.csv ", "f.csv"),
 ]
 WITHOUT_FOLDER = {"replay a.toml b.y4m ", "campaign --moves ", "replay --scalar fixed a.toml b"}
+# The same of the other programs; one without commands offers files at once.
+OTHERS = {
+    "tubesightd": [("", "a.toml")],
+    "tubesightctl": [("--socket ", " ".join(FILES)), ("start --socket x --field ", "")],
+}
+OTHERS_WITHOUT_FOLDER = {"start --socket x --field "}
 
 
 class Program:
@@ -43,7 +49,8 @@ class Program:
         self.program = program
         text = self.run("--help")
         self.options = {"": self.options_in(text)}
-        for command in re.findall(r"^  (\w+) ", text.split("Subcommands:")[1], re.MULTILINE):
+        commands = text.partition("Subcommands:")[2]
+        for command in re.findall(r"^  ([\w-]+) ", commands, re.MULTILINE):
             self.options[command] = self.options_in(self.run(command, "--help"))
 
     def run(self, *arguments):
@@ -73,7 +80,7 @@ def page_options(page):
         if macro == ".SH":
             part, command = rest, ""
         elif macro == ".SS" and part == "COMMANDS":
-            command = rest
+            command = rest.replace("\\-", "-")
             found[command] = {}
         elif after_tag and macro in (".B", ".BI", ".BR"):
             words = [quoted.replace('""', '"') if quoted else plain for quoted, plain in
@@ -87,13 +94,13 @@ def page_options(page):
     return found
 
 
-def offered(completion, typed, folder):
+def offered(completion, typed, folder, name="tubesight"):
     """What the completion offers for the last word of the line."""
-    script = ('source "$1"; read -ra COMP_WORDS <<< "tubesight $2"; [[ $2 == *" " || -z $2 ]] && '
-              'COMP_WORDS+=(""); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _tubesight; '
+    script = ('source "$1"; read -ra COMP_WORDS <<< "$3 $2"; [[ $2 == *" " || -z $2 ]] && '
+              'COMP_WORDS+=(""); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); "_$3"; '
               'printf "%s\\n" "${COMPREPLY[@]}"')
-    done = subprocess.run(["bash", "--norc", "-c", script, "bash", completion, typed], cwd=folder,
-                          capture_output=True, text=True, check=False)
+    done = subprocess.run(["bash", "--norc", "-c", script, "bash", completion, typed, name],
+                          cwd=folder, capture_output=True, text=True, check=False)
     return set(done.stdout.split()) | ({done.stderr} if done.stderr else set())
 
 
@@ -116,31 +123,35 @@ def check_page(told, page_path):
     return problems + [f"page: {line}" for line in rendered.stderr.splitlines()]
 
 
-def check_completion(told, choices, completion):
+def check_completion(told, choices, completion, program="tubesight"):
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         for name in FILES:
             pathlib.Path(folder, name).touch()
         pathlib.Path(folder, "folder").mkdir()
-        ask = lambda typed: offered(completion, typed, folder)
-        problems += differences("completion", ask(""), set(told) - {""})
+        ask = lambda typed: offered(completion, typed, folder, program)
+        if set(told) != {""}:
+            problems += differences("completion", ask(""), set(told) - {""})
         for command, options in told.items():
             typed = f"{command} -" if command else "-"
             problems += differences(f"completion of '{typed}'", ask(typed), set(options))
         for (command, option), words in choices.items():
             typed = f"{command} {option} "
             problems += differences(f"completion of '{typed}'", ask(typed), words)
-        for typed, names in OFFERED:
-            expected = set(names.split()) | (set() if typed in WITHOUT_FOLDER else {"folder"})
+        alone = WITHOUT_FOLDER | OTHERS_WITHOUT_FOLDER
+        for typed, names in OTHERS.get(program, OFFERED):
+            expected = set(names.split()) | (set() if typed in alone else {"folder"})
             problems += differences(f"completion of '{typed}'", ask(typed), expected)
     return problems
 
 
 def check(program_path, page, completion):
     program = Program(program_path)
-    choices = {(command, option): program.choices(command, option) for command, option in CHOICES}
+    name = pathlib.Path(program_path).name
+    choices = {} if name in OTHERS else {
+        (command, option): program.choices(command, option) for command, option in CHOICES}
     return (check_page(program.options, pathlib.Path(page)) +
-            check_completion(program.options, choices, completion))
+            check_completion(program.options, choices, completion, name))
 
 
 def self_test():

@@ -1,6 +1,6 @@
 // Scenarios: the text is cut at lines "#---" into scenario.toml, 1.toml, 2.toml ..., so that
 // includes are reached too. Whatever it holds: a scenario that can be played, or messages.
-#include "board/bench/simulate/scenario_file.h"
+#include "drivers/scenario/scenario_file.h"
 
 #include <cmath>
 #include <cstdint>
@@ -37,10 +37,10 @@ void check(const drivers::Scenario& scenario) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const auto file = std::make_unique<board::ScenarioFile>();
+  static const auto file = std::make_unique<drivers::ScenarioFile>();
   drivers::Messages messages;
   fuzz::CutFiles files({reinterpret_cast<const char*>(data), size}, "scenario.toml");
-  const bool good = board::load_scenario(files, "scenario.toml", {}, *file, messages).has_value();
+  const bool good = drivers::load_scenario(files, "scenario.toml", {}, *file, messages).has_value();
   require(good == messages.empty());
   for (const std::string& message : messages) {
     require(message.find('\n') == std::string::npos);

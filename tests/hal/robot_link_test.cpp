@@ -8,6 +8,8 @@ namespace {
 
 class FakeMaker {
  public:
+  static constexpr int kStartTubes = core::kMaxStartPoints;
+
   hal::RobotLink& link() { return fake_; }
   void say(const core::Event& event) { fake_.say(event); }
   [[nodiscard]] std::size_t replies() const { return fake_.replies().size(); }

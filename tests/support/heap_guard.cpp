@@ -6,12 +6,16 @@
 
 namespace {
 
-std::atomic<bool> g_armed{false};
+enum class Armed : std::uint8_t { kNot, kAllThreads, kOneThread };
+
+std::atomic<Armed> g_armed{Armed::kNot};
+thread_local bool t_watched = false;
 std::atomic<std::int64_t> g_allocations{0};
 std::atomic<std::int64_t> g_releases{0};
 
 void count(std::atomic<std::int64_t>& counter) {
-  if (g_armed.load(std::memory_order_relaxed)) {
+  const Armed armed = g_armed.load(std::memory_order_relaxed);
+  if (armed == Armed::kAllThreads || (armed == Armed::kOneThread && t_watched)) {
     counter.fetch_add(1, std::memory_order_relaxed);
   }
 }
@@ -154,16 +158,20 @@ void operator delete[](void* pointer, std::align_val_t /*alignment*/,
 
 namespace tubesight::tests {
 
-HeapGuard::HeapGuard() {
-  if (g_armed.load()) {
+HeapGuard::HeapGuard(HeapScope scope) {
+  if (g_armed.load() != Armed::kNot) {
     std::abort();
   }
   g_allocations = 0;
   g_releases = 0;
-  g_armed = true;
+  t_watched = true;
+  g_armed = scope == HeapScope::kAllThreads ? Armed::kAllThreads : Armed::kOneThread;
 }
 
-HeapGuard::~HeapGuard() { g_armed = false; }
+HeapGuard::~HeapGuard() {
+  g_armed = Armed::kNot;
+  t_watched = false;
+}
 
 HeapCalls HeapGuard::calls() const { return {g_allocations.load(), g_releases.load()}; }
 

@@ -10,7 +10,14 @@ struct HeapCalls {
   std::int64_t releases = 0;     ///< operator delete and free, null pointers left out
 };
 
-/// Counts every call for memory, by all threads, from construction to destruction.
+/// Whose calls a guard counts.
+enum class HeapScope : std::uint8_t {
+  kAllThreads,
+  kThisThread,  ///< the one that makes the guard: others may allocate beside it
+};
+
+/// Counts every call for memory, by all threads unless told otherwise, from construction to
+/// destruction.
 ///
 /// Linking tubesight::heap_guard replaces operator new and delete in the whole program and wraps
 /// the malloc family in its own objects and archives. Calls made inside shared libraries are seen
@@ -18,7 +25,7 @@ struct HeapCalls {
 /// program. Read the counts before an EXPECT: GoogleTest allocates.
 class HeapGuard {
  public:
-  HeapGuard();
+  explicit HeapGuard(HeapScope scope = HeapScope::kAllThreads);
   ~HeapGuard();
   HeapGuard(const HeapGuard&) = delete;
   HeapGuard& operator=(const HeapGuard&) = delete;

@@ -124,6 +124,26 @@ TEST(HeapGuard, CountsTheCallsOfAllThreads) {
   EXPECT_GE(after.allocations, 1);
 }
 
+TEST(HeapGuard, LeavesOtherThreadsOutWhereAsked) {
+  std::thread worker;
+  const HeapGuard guard(HeapScope::kThisThread);
+  worker = std::thread([] {
+    void* memory = std::malloc(10);
+    g_seen = memory;
+    std::free(memory);
+  });
+  worker.join();
+  const HeapCalls before = guard.calls();
+  void* memory = std::malloc(10);
+  g_seen = memory;
+  std::free(memory);
+
+  const HeapCalls after = guard.calls();
+
+  EXPECT_EQ(after.allocations - before.allocations, 1);
+  EXPECT_LE(before.allocations, 2) << "the thread's own making is the caller's call";
+}
+
 TEST(HeapGuard, CountsOnlyWhileArmed) {
   const std::unique_ptr<int> before(new int(1));
   g_seen = before.get();

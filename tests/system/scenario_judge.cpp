@@ -76,7 +76,7 @@ std::string ScenarioVerdict::text() const {
   return text.str();
 }
 
-ScenarioVerdict judge_scenario(const board::ScenarioFile& file) {
+ScenarioVerdict judge_scenario(const drivers::ScenarioFile& file) {
   ScenarioVerdict verdict;
   const auto world = std::make_unique<drivers::SimulatedWorld>();
   const drivers::Scenario& scenario = file.scenario;

@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "board/bench/simulate/scenario_file.h"
 #include "core/base/sighting.h"
+#include "drivers/scenario/scenario_file.h"
 
 namespace tubesight::tests {
 
@@ -36,6 +36,6 @@ struct ScenarioVerdict {
 };
 
 /// Plays a scenario in memory through the session in fixed point.
-[[nodiscard]] ScenarioVerdict judge_scenario(const board::ScenarioFile& file);
+[[nodiscard]] ScenarioVerdict judge_scenario(const drivers::ScenarioFile& file);
 
 }  // namespace tubesight::tests

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "board/bench/simulate/scenario_file.h"
 #include "core/base/names.h"
+#include "drivers/scenario/scenario_file.h"
 #include "tests/system/scenario_judge.h"
 
 namespace tubesight::tests {
@@ -30,11 +30,12 @@ std::vector<std::string> library() {
 }
 
 /// The file read, its mistakes told by the test.
-std::unique_ptr<board::ScenarioFile> load(const std::string& name) {
-  auto file = std::make_unique<board::ScenarioFile>();
+std::unique_ptr<drivers::ScenarioFile> load(const std::string& name) {
+  auto file = std::make_unique<drivers::ScenarioFile>();
   drivers::Messages messages;
   const bool good =
-      board::load_scenario(kFolder + "/" + name + ".toml", {-1, true}, *file, messages).has_value();
+      drivers::load_scenario(kFolder + "/" + name + ".toml", {-1, true}, *file, messages)
+          .has_value();
   for (const std::string& message : messages) {
     ADD_FAILURE() << message;
   }
@@ -49,7 +50,7 @@ TEST_P(ScenarioLibrary, GoesAsExpected) {
 
   const ScenarioVerdict verdict = judge_scenario(*file);
 
-  const board::Expectation& expect = file->expect;
+  const drivers::Expectation& expect = file->expect;
   SCOPED_TRACE(verdict.text());
   RecordProperty("verdict", verdict.text());
   ASSERT_TRUE(verdict.played);

@@ -9,10 +9,10 @@
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/random_move.h"
 #include "board/bench/output/text_output.h"
-#include "board/bench/simulate/scenario_file.h"
-#include "board/bench/simulate/scenario_text.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
+#include "drivers/scenario/scenario_file.h"
+#include "drivers/scenario/scenario_text.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board::campaign {
@@ -86,13 +86,14 @@ class OneMove {
   ExitStatus write(const std::string& stratum) {
     drop_idle_faults();
     const std::string title = "Campaign move " + options_.one_move + " (" + stratum + ")";
-    if (!file_.write(std::string_view(scenario_text(*scenario_, title))) || !file_.commit()) {
+    if (!file_.write(std::string_view(drivers::scenario_text(*scenario_, title))) ||
+        !file_.commit()) {
       tell(file_.message());
       return ExitStatus::kJobFailed;
     }
-    const auto read = std::make_unique<ScenarioFile>();
+    const auto read = std::make_unique<drivers::ScenarioFile>();
     drivers::Messages messages;
-    if (!load_scenario(options_.out, {}, *read, messages)) {
+    if (!drivers::load_scenario(options_.out, {}, *read, messages)) {
       tell(messages);
       return ExitStatus::kJobFailed;
     }

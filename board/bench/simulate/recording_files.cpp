@@ -122,7 +122,8 @@ void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
   append_truth_row(rows_[kTruth], place, field, camera,
                    scenario_->told.verification.aligned_within_mm);
   if (centers) {
-    list_tubes_in_view(world.truth(), scenario_->scene, field.truth, field.faults, in_view_);
+    drivers::list_tubes_in_view(world.truth(), scenario_->scene, field.truth, field.faults,
+                                in_view_);
     append_true_center_rows(rows_[kCenters], place, field, camera, in_view_);
   }
 }

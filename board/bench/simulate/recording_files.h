@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "board/bench/simulate/tubes_in_view.h"
 #include "core/base/result.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/y4m_writer.h"
+#include "drivers/scenario/tubes_in_view.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {
@@ -53,7 +53,7 @@ class RecordingFiles {
   std::array<drivers::AtomicFile, 5> texts_;    ///< in the order of kRecordingSuffixes
   std::array<std::string, 5> rows_;             ///< of the frame at hand
   std::vector<drivers::SimulatedField> slots_;  ///< of the frame at hand
-  std::vector<TubeInView> in_view_;
+  std::vector<drivers::TubeInView> in_view_;
   std::optional<std::int64_t> last_slot_;  ///< that is delivered; found with the first slot
   std::int64_t frames_ = 0;
   bool start_passed_ = false;  ///< the start event of the settings, which the session file has

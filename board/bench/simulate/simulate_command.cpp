@@ -11,9 +11,9 @@
 #include "board/bench/output/progress_line.h"
 #include "board/bench/output/text_output.h"
 #include "board/bench/simulate/recording_files.h"
-#include "board/bench/simulate/scenario_file.h"
 #include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
+#include "drivers/scenario/scenario_file.h"
 #include "drivers/settings/session_checks.h"
 #include "drivers/settings/toml_writer.h"
 #include "drivers/simulated/simulated_world.h"
@@ -22,7 +22,8 @@ namespace tubesight::board {
 namespace {
 
 /// Where an output cannot go; empty when all can.
-std::string find_output_conflict(const SimulateOptions& options, const ScenarioFile& file) {
+std::string find_output_conflict(const SimulateOptions& options,
+                                 const drivers::ScenarioFile& file) {
   if (options.out.empty() || options.out.ends_with('/')) {
     return "--out: '" + options.out + "' is no name, expected what the files' names begin with";
   }
@@ -37,7 +38,7 @@ std::string find_output_conflict(const SimulateOptions& options, const ScenarioF
   return find_clash(inputs, outputs);
 }
 
-std::string summary(const SimulateOptions& options, const ScenarioFile& file,
+std::string summary(const SimulateOptions& options, const drivers::ScenarioFile& file,
                     const drivers::SimulatedWorld& world, std::int64_t frames,
                     std::int64_t delivered) {
   const core::CameraSettings& camera = file.scenario.scene.camera;
@@ -50,7 +51,7 @@ std::string summary(const SimulateOptions& options, const ScenarioFile& file,
 }
 
 /// Says in the session file what the recording is of.
-std::string heading(const SimulateOptions& options, const ScenarioFile& file) {
+std::string heading(const SimulateOptions& options, const drivers::ScenarioFile& file) {
   const std::string from = std::filesystem::path(options.scenario).filename().string() + ", seed " +
                            std::to_string(file.scenario.seed);
   return (file.title.empty() ? "" : drivers::toml_comment(file.title)) +
@@ -60,10 +61,10 @@ std::string heading(const SimulateOptions& options, const ScenarioFile& file) {
 }  // namespace
 
 ExitStatus run_simulate(const SimulateOptions& options) {
-  const auto file = std::make_unique<ScenarioFile>();
+  const auto file = std::make_unique<drivers::ScenarioFile>();
   drivers::Messages messages;
   const bool good =
-      load_scenario(options.scenario, {options.seed, options.window_only}, *file, messages)
+      drivers::load_scenario(options.scenario, {options.seed, options.window_only}, *file, messages)
           .has_value();
   tell(messages);
   if (!good) {
@@ -75,7 +76,7 @@ ExitStatus run_simulate(const SimulateOptions& options) {
   }
   const auto world = std::make_unique<drivers::SimulatedWorld>();
   if (!world->configure(file->scenario)) {
-    tell(options.scenario + ": cannot be played, expected what load_scenario() checks");
+    tell(options.scenario + ": cannot be played, expected what drivers::load_scenario() checks");
     return ExitStatus::kWrongInput;
   }
   const std::chrono::duration<double> span = world->slot_time(1) - world->slot_time(0);

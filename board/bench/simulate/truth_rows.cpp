@@ -114,8 +114,8 @@ void append_truth_row(std::string& out, const FieldPlace& place,
 void append_true_center_rows(std::string& out, const FieldPlace& place,
                              const drivers::SimulatedField& field,
                              const core::CameraSettings& camera,
-                             const std::vector<TubeInView>& tubes) {
-  for (const TubeInView& tube : tubes) {
+                             const std::vector<drivers::TubeInView>& tubes) {
+  for (const drivers::TubeInView& tube : tubes) {
     const auto& [u, v] = tube.image.center_px;
     if (u < 0.0 || v < 0.0 || u > camera.width_px - 1 || v > camera.height_px - 1) {
       continue;

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "board/bench/simulate/tubes_in_view.h"
 #include "core/base/settings.h"
 #include "core/rendering/truth.h"
+#include "drivers/scenario/tubes_in_view.h"
 #include "drivers/simulated/simulated_world.h"
 
 namespace tubesight::board {
@@ -43,6 +43,6 @@ void append_truth_row(std::string& out, const FieldPlace& place,
 void append_true_center_rows(std::string& out, const FieldPlace& place,
                              const drivers::SimulatedField& field,
                              const core::CameraSettings& camera,
-                             const std::vector<TubeInView>& tubes);
+                             const std::vector<drivers::TubeInView>& tubes);
 
 }  // namespace tubesight::board

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "board/box/box_loop.h"
+#include "board/box/pose_service.h"
 #include "drivers/files/messages.h"
 #include "drivers/replay/replay_frame_grabber.h"
 #include "drivers/settings/session_settings.h"

@@ -13,6 +13,8 @@ namespace {
 
 class SimulatedMaker {
  public:
+  static constexpr int kStartTubes = core::kMaxStartPoints;
+
   explicit SimulatedMaker(const LineNoise& noise = {})
       : robot_(std::make_unique<SimulatedRobot>()), link_(*robot_, noise) {
     const auto scenario = std::make_unique<Scenario>();
@@ -67,8 +69,8 @@ TEST(SimulatedRobotLink, TakesWhatNoRobotMaySayForGarbled) {
   SimulatedMaker maker;
   ASSERT_TRUE(maker.link().start());
   for (const core::Event& event :
-       {tests::event_of(core::Pick{}), tests::event_of(core::Acknowledge{}),
-        tests::event_of(core::PoseResult{}), tests::event_of(core::LampCommand{1001})}) {
+       {tests::event_of(core::Acknowledge{}), tests::event_of(core::PoseResult{}),
+        tests::event_of(core::LampCommand{1001})}) {
     maker.say(event);
     const auto message = maker.link().poll_event();
     ASSERT_FALSE(message);

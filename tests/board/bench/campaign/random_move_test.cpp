@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "board/bench/campaign/random_parts.h"
-#include "board/bench/simulate/scenario_text.h"
+#include "drivers/scenario/scenario_text.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -26,12 +26,12 @@ class RandomMove : public ::testing::Test {
 };
 
 TEST_F(RandomMove, IsTheSameWhateverWasDrawnBefore) {
-  const std::string alone = scenario_text(make(77), "");
+  const std::string alone = drivers::scenario_text(make(77), "");
   make(12);
   make(3);
-  EXPECT_EQ(scenario_text(make(77), ""), alone);
+  EXPECT_EQ(drivers::scenario_text(make(77), ""), alone);
   maker_.make(2, 77, *scenario_);
-  EXPECT_NE(scenario_text(*scenario_, ""), alone);
+  EXPECT_NE(drivers::scenario_text(*scenario_, ""), alone);
 }
 
 // Progress of two designs must not be put together. A change of what is drawn changes the digest:
@@ -40,7 +40,7 @@ TEST_F(RandomMove, IsTheSameWhateverWasDrawnBefore) {
 TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
   std::uint64_t digest = 14695981039346656037ULL;
   for (std::int64_t move = 0; move < kStrata; ++move) {
-    for (const char letter : scenario_text(make(move), "")) {
+    for (const char letter : drivers::scenario_text(make(move), "")) {
       digest = (digest ^ static_cast<std::uint8_t>(letter)) * 1099511628211ULL;
     }
   }

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "board/bench/campaign/move_run.h"
-#include "board/bench/simulate/scenario_file.h"
+#include "drivers/scenario/scenario_file.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -28,9 +28,10 @@ std::vector<std::string> names() {
 class Regression : public testing::TestWithParam<std::string> {};
 
 TEST_P(Regression, VouchesForNoWrongTube) {
-  const auto file = std::make_unique<ScenarioFile>();
+  const auto file = std::make_unique<drivers::ScenarioFile>();
   drivers::Messages messages;
-  const auto read = load_scenario(kFolder + "/" + GetParam() + ".toml", {}, *file, messages);
+  const auto read =
+      drivers::load_scenario(kFolder + "/" + GetParam() + ".toml", {}, *file, messages);
   ASSERT_TRUE(read.has_value()) << (messages.empty() ? "" : messages.front());
   MoveRunner runner;
   const MoveResult result = runner.run(file->scenario, {});

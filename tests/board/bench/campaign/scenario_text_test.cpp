@@ -1,4 +1,4 @@
-#include "board/bench/simulate/scenario_text.h"
+#include "drivers/scenario/scenario_text.h"
 
 #include <memory>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "board/bench/campaign/random_move.h"
 #include "board/bench/campaign/stratum.h"
-#include "board/bench/simulate/scenario_file.h"
+#include "drivers/scenario/scenario_file.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -32,10 +32,10 @@ TEST(ScenarioText, ComesBackThroughTheReaderOfScenarioFiles) {
   const auto drawn = std::make_unique<drivers::Scenario>();
   for (std::int64_t move = 0; move < 2 * kStrata; move += 7) {
     maker.make(3, move, *drawn);
-    OneFile files(scenario_text(*drawn, "a move"));
-    const auto read = std::make_unique<ScenarioFile>();
+    OneFile files(drivers::scenario_text(*drawn, "a move"));
+    const auto read = std::make_unique<drivers::ScenarioFile>();
     drivers::Messages messages;
-    ASSERT_TRUE(load_scenario(files, "move.toml", {}, *read, messages).has_value())
+    ASSERT_TRUE(drivers::load_scenario(files, "move.toml", {}, *read, messages).has_value())
         << move << ": " << (messages.empty() ? "" : messages.front());
     EXPECT_EQ(read->title, "a move");
     const auto& a = *drawn;
@@ -75,11 +75,11 @@ TEST(ScenarioText, KeepsTheShiftOfOddRows) {
   const auto drawn = std::make_unique<drivers::Scenario>();
   maker.make(3, 0, *drawn);
   drawn->told.tubesheet.odd_row_shift = -0.015625;
-  OneFile files(scenario_text(*drawn, "a move"));
-  const auto read = std::make_unique<ScenarioFile>();
+  OneFile files(drivers::scenario_text(*drawn, "a move"));
+  const auto read = std::make_unique<drivers::ScenarioFile>();
   drivers::Messages messages;
 
-  ASSERT_TRUE(load_scenario(files, "move.toml", {}, *read, messages).has_value())
+  ASSERT_TRUE(drivers::load_scenario(files, "move.toml", {}, *read, messages).has_value())
       << (messages.empty() ? "" : messages.front());
 
   EXPECT_EQ(read->scenario.told.tubesheet.odd_row_shift, -0.015625);

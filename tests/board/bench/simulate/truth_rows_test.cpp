@@ -86,11 +86,11 @@ TEST(TrueCenterRows, TellTheTubesWhoseCentreIsInThePicture) {
   core::CameraSettings camera;
   camera.width_px = 635;
   camera.height_px = 480;
-  TubeInView inside;
+  drivers::TubeInView inside;
   inside.address = {4, -3};
   inside.end = {core::rendering::TubeEndKind::kOpen, {101.5, 202.25, 0.0}, 9.3};
   inside.image = {{96.97, 46.26}, {97.1, 44.8}, {36.3, 34.1}, 1.0, 0.25};
-  TubeInView outside = inside;
+  drivers::TubeInView outside = inside;
   outside.image.center_px = {635.0, 46.0};
   std::string rows;
 

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "board/bench/output/exit_status.h"
+
+namespace tubesight::board {
+
+/// Runs `tubesight devices`: lists what this machine has, as a box's settings name it. Opens
+/// nothing.
+[[nodiscard]] ExitStatus run_devices();
+
+}  // namespace tubesight::board

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "board/visionbox/kept_link.h"
+#include "board/visionbox/played_source.h"
+#include "board/visionbox/tracking_thread.h"
+
+namespace tubesight::board {
+
+/// How the box is doing, for whoever asks.
+struct BoxReport {
+  bool turned = false;  ///< `tracking` is there
+  TrackingStatus tracking;
+  MonotonicTime up{0};        ///< since the box was started
+  double fields_per_s = 0.0;  ///< over the last second or so, those that came
+
+  std::string_view source_kind;
+  SourceState source = SourceState::kOpening;
+  core::FieldTime span{0};  ///< from one field to the next, as the source says
+  std::int64_t passes = 0;
+  std::int64_t failures = 0;
+
+  std::string_view link_kind;
+  LinkReport link;
+  std::int32_t priority = 0;  ///< wanted
+  bool memory_locked = false;
+  bool lock_wanted = false;
+  double deadline_ms = 0.0;
+  std::int64_t poses_passed_over = 0;
+};
+
+/// The answer to `status`: one JSON object in a line, with the same for a person under `text`.
+[[nodiscard]] std::string status_answer(const BoxReport& report);
+
+/// One thing that the self-test looks at.
+struct SelfTestRow {
+  enum class Verdict : std::uint8_t { kGood, kBad, kAbsent };
+  std::string_view what;
+  Verdict verdict = Verdict::kGood;
+  std::string words;
+};
+[[nodiscard]] std::vector<SelfTestRow> self_test(const BoxReport& report);
+
+/// The answer to `self-test`; `ok` is false where one is bad.
+[[nodiscard]] std::string self_test_answer(const BoxReport& report);
+
+}  // namespace tubesight::board

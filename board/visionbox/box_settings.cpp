@@ -1,0 +1,163 @@
+#include "board/visionbox/box_settings.h"
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/base/scalar.h"
+#include "core/session/session.h"
+#include "drivers/scenario/scenario_file.h"
+#include "drivers/settings/read_table.h"
+#include "drivers/settings/settings_document.h"
+#include "drivers/settings/table_reader.h"
+
+namespace tubesight::board {
+namespace {
+
+using drivers::SettingsDocument;
+using drivers::TableReader;
+
+constexpr std::array<std::string_view, 4> kBoxTables = {"source", "control", "realtime", "link"};
+constexpr std::array<std::string_view, 2> kSourceKinds = {"replay", "simulated"};
+constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
+
+constexpr drivers::WholeRange kPriority{0, 99};
+constexpr drivers::NumberRange kDeadline{0.1, 1000.0, " ms"};
+/// What a socket's address holds, less its end.
+constexpr std::size_t kLongestSocketPath = 107;
+
+constexpr drivers::NeededTables kBoxNeeds{true, true, true, false};
+
+/// A path of a settings file, from the folder of the file that names it.
+std::string from_its_folder(const SettingsDocument& document, const TableReader& table,
+                            std::string_view key, const std::string& path) {
+  const auto file = static_cast<std::size_t>(table.place_of(key).file);
+  return (std::filesystem::path(document.files()[file]).parent_path() / path).string();
+}
+
+/// A file that one kind of source plays, and the other doesn't have.
+void read_file(const SettingsDocument& document, TableReader& table, std::string_view key,
+               bool wanted, std::string& path) {
+  if (!wanted) {
+    if (table.has(key)) {
+      table.complain(key, "of another kind of source, expected it left out");
+    }
+    table.ignore(key);
+    return;
+  }
+  std::string name;
+  if (!table.text(key, name)) {
+    return;
+  }
+  path = from_its_folder(document, table, key, name);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    table.complain(key, "there is no file '" + path + "', expected one");
+  }
+}
+
+void read_source(const SettingsDocument& document, TableReader& table, SourceSettings& source) {
+  std::size_t kind = 0;
+  std::size_t at_end = 0;
+  if (table.word("kind", kSourceKinds, kind)) {
+    source.kind = static_cast<SourceKind>(kind);
+  }
+  if (table.optional_word("at_end", kAtEnd, at_end)) {
+    source.loop = at_end == 0;
+  }
+  table.optional_switch("script", source.script);
+  const bool known = table.sound("kind");
+  const bool simulated = source.kind == SourceKind::kSimulated;
+  read_file(document, table, "recording", known ? !simulated : table.has("recording"),
+            source.recording);
+  read_file(document, table, "scenario", known ? simulated : table.has("scenario"),
+            source.scenario);
+}
+
+void read_control(const SettingsDocument& document, TableReader& table, std::string& socket) {
+  std::string path;
+  if (!table.text("socket", path)) {
+    return;
+  }
+  socket = from_its_folder(document, table, "socket", path);
+  if (path.empty() || socket.size() > kLongestSocketPath) {
+    table.complain("socket", std::to_string(path.empty() ? 0 : socket.size()) +
+                                 " bytes, expected a path of 1 to 107");
+  }
+}
+
+void read_real_time(TableReader& table, RealTimeSettings& real_time) {
+  table.optional_whole("priority", kPriority, real_time.priority);
+  table.optional_switch("lock_memory", real_time.lock_memory);
+  table.optional_number("deadline_ms", kDeadline, real_time.deadline_ms);
+}
+
+/// A scenario says itself what the box is told of its world.
+void refuse_session(SettingsDocument& document) {
+  for (const std::string_view name : drivers::kSessionTables) {
+    if (const drivers::SettingsTable* const table = document.find(name)) {
+      document.problems().push_back(
+          {table->place, std::string(name) + ": a simulated source has the tables of its scenario, "
+                                             "expected none here"});
+    }
+  }
+}
+
+void read_all(SettingsDocument& document, BoxSettings& box) {
+  box.source = {};
+  box.control_socket.clear();
+  box.real_time = {};
+  box.link = {};
+  drivers::read_table(document, "source", true,
+                      [&](TableReader& table) { read_source(document, table, box.source); });
+  drivers::read_table(document, "control", false, [&](TableReader& table) {
+    read_control(document, table, box.control_socket);
+  });
+  drivers::read_table(document, "realtime", false,
+                      [&](TableReader& table) { read_real_time(table, box.real_time); });
+  drivers::read_table(document, "link", false,
+                      [&](TableReader& table) { read_link(table, box.link); });
+  if (box.source.kind == SourceKind::kSimulated) {
+    refuse_session(document);
+    return;
+  }
+  drivers::read_session(document, kBoxNeeds, box.session);
+  if (document.problems().empty() &&
+      !std::make_unique<core::session::Session<core::FixedPoint>>()->configure(
+          box.session.settings)) {
+    document.problems().push_back(
+        {{0, 0},
+         "the tracking cannot compute with these settings together, expected neighbouring tubes "
+         "from 2 mm apart and a picture within 60 degrees of the optical axis"});
+  }
+}
+
+}  // namespace
+
+core::Result<void> load_box_settings(drivers::TextFiles& files, const std::string& path,
+                                     BoxSettings& box, drivers::Messages& messages) {
+  std::vector<std::string_view> known(kBoxTables.begin(), kBoxTables.end());
+  known.insert(known.end(), drivers::kSessionTables.begin(), drivers::kSessionTables.end());
+  SettingsDocument document;
+  document.load(files, path, known);
+  read_all(document, box);
+  const auto read = document.report(messages);
+  if (box.source.kind != SourceKind::kSimulated || box.source.scenario.empty()) {
+    return read;
+  }
+  // Its mistakes are told with the others.
+  const auto scenario =
+      drivers::load_scenario(files, box.source.scenario, {-1, true}, box.scenario, messages);
+  return read ? scenario : read;
+}
+
+core::Result<void> load_box_settings(const std::string& path, BoxSettings& box,
+                                     drivers::Messages& messages) {
+  drivers::DiskFiles files;
+  return load_box_settings(files, path, box, messages);
+}
+
+}  // namespace tubesight::board

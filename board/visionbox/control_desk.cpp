@@ -1,0 +1,60 @@
+#include "board/visionbox/control_desk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "board/visionbox/control_protocol.h"
+
+namespace tubesight::board {
+namespace {
+
+/// The tracking thread answers after the next field; this is many of them.
+constexpr MonotonicTime kPatience = std::chrono::seconds(2);
+
+}  // namespace
+
+std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
+                                               std::string_view line) {
+  ControlRequest request = parse_request(line, *start_);
+  if (const auto* const wrong = std::get_if<WrongRequest>(&request.content)) {
+    return refusal_answer(request.command, wrong->error);
+  }
+  if (std::holds_alternative<StatusRequest>(request.content)) {
+    return status_answer(report_());
+  }
+  if (std::holds_alternative<SelfTestRequest>(request.content)) {
+    return self_test_answer(report_());
+  }
+  auto* const asked = std::get_if<EventRequest>(&request.content);
+  if (asked == nullptr) {
+    return refusal_answer(request.command, "there is no recorder in this box");
+  }
+  asked->event.id = next_id_++;
+  if (!station_->submit(asked->event)) {
+    return refusal_answer(request.command, "the box has too much to do, ask again");
+  }
+  waiting_.push_back({asked->event.id, client, std::move(request.command), monotonic_now()});
+  return {};
+}
+
+void ControlDesk::serve_replies(drivers::ControlServer& server, MonotonicTime now) {
+  while (const auto reply = station_->take_reply()) {
+    const auto found = std::find_if(waiting_.begin(), waiting_.end(),
+                                    [&](const Waiting& each) { return each.id == reply->id; });
+    if (found != waiting_.end()) {
+      server.answer(found->client, reply_answer(found->command, *reply));
+      waiting_.erase(found);
+    }
+  }
+  std::erase_if(waiting_, [&](const Waiting& each) {
+    const bool late = now - each.since > kPatience;
+    if (late) {
+      server.answer(each.client, refusal_answer(each.command, "the box did not answer in time"));
+    }
+    return late;
+  });
+}
+
+}  // namespace tubesight::board

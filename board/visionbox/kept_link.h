@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "board/visionbox/link_settings.h"
+#include "board/visionbox/source_clock.h"
+#include "drivers/modbus/modbus_robot_link.h"
+#include "hal/robot_link.h"
+
+namespace tubesight::board {
+
+/// How the robot's link is doing, for whoever asks.
+struct LinkReport {
+  bool open = false;  ///< line and port, whichever are wanted
+  drivers::LinkCounters counters;
+};
+
+/// The robot's link, without which the box starts all the same: an operator can use it while the
+/// line cannot be opened, and it is tried again until it can.
+///
+/// Opening takes its time and the heap, and is the business of the thread that starts the box and
+/// looks after it; the tracking thread sees a link that is gone meanwhile.
+// Final, and the port has no virtual destructor. NOLINTNEXTLINE(*-virtual-class-destructor)
+class KeptLink final : public hal::RobotLink {
+ public:
+  using Tell = std::function<void(const std::string&)>;
+
+  /// `clock` as ModbusRobotLink's; `tell` takes lines for a person.
+  KeptLink(const drivers::ModbusSettings& settings, const drivers::LinkIdentity& identity,
+           const hal::Clock& clock, Tell tell);
+
+  /// Tries to open it. Errors: kNotReady started already.
+  [[nodiscard]] core::Result<void> start() override;
+  void stop() override;
+
+  /// Tries again, once a second, where it could not be opened, and tells when a line goes or comes
+  /// back. Of the thread that starts it.
+  void look_after(MonotonicTime now);
+
+  [[nodiscard]] core::Result<std::optional<core::Event>> poll_event() override;
+  [[nodiscard]] core::Result<void> send_reply(const core::Reply& reply) override;
+  [[nodiscard]] core::Result<void> send_sighting(const core::Sighting& sighting) override;
+
+  /// What the robot reads of the box's parts. Of the tracking thread.
+  void set_health(const drivers::LinkHealth& health) { link_.set_health(health); }
+
+  /// Any thread.
+  [[nodiscard]] LinkReport report() const;
+
+ private:
+  void try_to_open(MonotonicTime now);
+
+  drivers::ModbusRobotLink link_;
+  std::string where_;  ///< line and port, for a person
+  Tell tell_;
+  bool started_ = false;
+  bool told_ = false;  ///< that it cannot be opened
+  bool connected_ = false;
+  MonotonicTime next_{0};
+  std::atomic<bool> open_{false};  ///< the tracking thread may use it
+};
+
+}  // namespace tubesight::board

@@ -1,0 +1,137 @@
+// tubesightd: the vision box as a service.
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include "board/box/version.h"
+#include "board/visionbox/box_settings.h"
+#include "board/visionbox/box_watch.h"
+#include "board/visionbox/control_desk.h"
+#include "board/visionbox/log.h"
+#include "board/visionbox/vision_box.h"
+#include "drivers/control/control_server.h"
+
+namespace tubesight::board {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kFailed = 1;
+constexpr int kWrongInput = 2;
+
+/// SIGTERM and SIGINT as a descriptor. Blocked before any thread runs, so that none is hit.
+class EndSignals {
+ public:
+  EndSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
+  }
+  EndSignals(const EndSignals&) = delete;
+  EndSignals& operator=(const EndSignals&) = delete;
+  ~EndSignals() { close(fd_); }
+  [[nodiscard]] int fd() const { return fd_; }
+
+ private:
+  int fd_ = -1;
+};
+
+/// Serves until a signal ends it.
+void serve(VisionBox& box, ControlDesk& desk, drivers::ControlServer& server, BoxWatch& watch,
+           const EndSignals& signals) {
+  constexpr std::chrono::milliseconds kIdle{100};
+  constexpr std::chrono::milliseconds kBusy{4};  // an answer comes with the next field
+  bool ended = false;
+  while (!ended) {
+    ended = server.serve(desk.busy() ? kBusy : kIdle, signals.fd());
+    desk.serve_replies(server, monotonic_now());
+    box.look_after();
+    watch.look(box.report());
+  }
+}
+
+int run(const BoxSettings& settings) {
+  const EndSignals signals;
+  Log log;
+  const auto tell = [&log](const std::string& line) { log.say(line); };
+  const auto box = std::make_unique<VisionBox>(settings, tell);
+  BoxWatch watch(tell);
+  const auto report = [&] {
+    BoxReport now = box->report();
+    now.fields_per_s = watch.fields_per_s();
+    return now;
+  };
+  ControlDesk desk(report, box->station(), settings.told().start);
+  drivers::ControlServer server(desk);
+  if (!settings.control_socket.empty() && !server.start(settings.control_socket)) {
+    log.say(server.message());
+    return kFailed;
+  }
+  if (!box->start()) {
+    log.say("cannot be started");
+    return kFailed;
+  }
+  log.say("started, " + std::string(program_version()));
+  serve(*box, desk, server, watch, signals);
+  box->stop();
+  server.stop();
+  log.say("stopped");
+  return kDone;
+}
+
+int run_program(int argc, const char* const* argv) {
+  CLI::App app("Tubesight's vision box as a service", "tubesightd");
+  app.set_version_flag("--version", version_text("tubesightd"),
+                       "Print version, commit and arithmetic, and exit");
+  std::string path;
+  bool check = false;
+  app.add_option("BOX.toml", path, "Settings of the box: source, control, link, session (TOML)")
+      ->required();
+  app.add_flag("--check", check, "Read the settings, tell every mistake, and exit");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+      return app.exit(problem) == 0 ? kDone : kWrongInput;
+    }
+    std::string text = problem.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    std::fprintf(stderr, "tubesightd: %s (tubesightd --help tells the arguments)\n", text.c_str());
+    return kWrongInput;
+  }
+  const auto settings = std::make_unique<BoxSettings>();
+  drivers::Messages messages;
+  const bool good = static_cast<bool>(load_box_settings(path, *settings, messages));
+  for (const std::string& message : messages) {
+    std::fprintf(stderr, "%s\n", message.c_str());
+  }
+  if (!good) {
+    return kWrongInput;
+  }
+  return check ? kDone : run(*settings);
+}
+
+}  // namespace
+}  // namespace tubesight::board
+
+int main(int argc, char** argv) {
+  // A client that goes away is told as a failed write, not by the end of the program.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return tubesight::board::run_program(argc, argv);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "tubesightd: stopped: %s\n", problem.what());
+    return tubesight::board::kFailed;
+  }
+}

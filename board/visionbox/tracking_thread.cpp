@@ -1,0 +1,108 @@
+#include "board/visionbox/tracking_thread.h"
+
+#include <algorithm>
+
+namespace tubesight::board {
+namespace {
+
+/// A field that is later than this is a missing one: between one and two fields, as a rule.
+constexpr double kPatienceInFields = 1.75;
+/// A turn is the millisecond's business, whatever a source says of its rate.
+constexpr std::chrono::milliseconds kShortest{5};
+constexpr std::chrono::milliseconds kLongest{1000};
+
+}  // namespace
+
+TrackingThread::TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+                               const RealTimeSettings& settings)
+    : loop_(&loop), source_(&source), link_(link), settings_(settings) {}
+
+std::string TrackingThread::start() {
+  stopping_ = false;
+  thread_ = std::thread([this] { run(); });
+  ready_.wait_until(monotonic_now() + std::chrono::seconds(10));
+  return no_priority_;
+}
+
+void TrackingThread::stop() {
+  stopping_ = true;
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void TrackingThread::run() {
+  touch_stack();
+  if (settings_.priority > 0) {
+    no_priority_ = schedule_in_real_time(settings_.priority);
+    now_.scheduled = no_priority_.empty();
+  }
+  ready_.wake();
+  while (!stopping_) {
+    turn();
+  }
+}
+
+void TrackingThread::turn() {
+  const std::chrono::duration<double> patience = kPatienceInFields * source_->span();
+  const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
+                                  kShortest, kLongest);
+  if (!loop_->turn(timeout)) {
+    // The source has nothing to wait for: turns go on at the rate of its fields.
+    ++now_.source_errors;
+    sleep_until(next_without_);
+    loop_->turn_without_field();
+  }
+  const MonotonicTime now = monotonic_now();
+  if (loop_->input().field.status != core::FieldStatus::kMissing) {
+    measure();
+    next_without_ = now + source_->span();
+  } else {
+    // The second field of a frame that failed to come is given up with the first, in no time.
+    next_without_ = std::max(next_without_, now - source_->span()) + source_->span();
+  }
+  publish();
+}
+
+void TrackingThread::measure() {
+  const MonotonicTime done = monotonic_now();
+  const MonotonicTime whole = done - source_->due();
+  now_.step.add(done - source_->handed_over());
+  now_.grab_to_sighting.add(whole);
+  const std::chrono::duration<double, std::milli> whole_ms = whole;
+  now_.late += whole_ms.count() > settings_.deadline_ms ? 1 : 0;
+}
+
+void TrackingThread::publish() {
+  now_.sighting = loop_->output().sighting;
+  now_.counters = loop_->counters();
+  now_.lamp = loop_->input().lamp_dimmed;
+  now_.lamp_permille = loop_->input().field.lamp_permille;
+  latest_.publish(now_);
+  tell_robot();
+}
+
+void TrackingThread::tell_robot() {
+  if (link_ == nullptr) {
+    return;
+  }
+  using drivers::Health;
+  drivers::LinkHealth health;
+  const SourceState source = source_->state();
+  health.camera = source == SourceState::kPlaying   ? Health::kWell
+                  : source == SourceState::kOpening ? Health::kUnknown
+                                                    : Health::kFailed;
+  health.lamp_dimmed = now_.lamp;
+  if (now_.lamp) {
+    const bool failed = now_.counters.dimmer_errors > dimmer_errors_;
+    health.lamp = failed ? Health::kFailed : Health::kWell;
+    health.lamp_permille = now_.lamp_permille;
+  }
+  dimmer_errors_ = now_.counters.dimmer_errors;
+  health.fields = now_.counters.fields;
+  health.fields_missing = now_.counters.missing;
+  health.fields_late = now_.late;
+  link_->set_health(health);
+}
+
+}  // namespace tubesight::board

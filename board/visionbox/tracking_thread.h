@@ -1,0 +1,80 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+
+#include "board/box/box_loop.h"
+#include "board/visionbox/kept_link.h"
+#include "board/visionbox/latency_histogram.h"
+#include "board/visionbox/played_source.h"
+#include "board/visionbox/real_time.h"
+#include "core/base/scalar.h"
+#include "core/base/sighting.h"
+#include "core/base/snapshot.h"
+
+namespace tubesight::board {
+
+/// What the tracking thread leaves after each turn, for whoever wants to know.
+struct TrackingStatus {
+  core::Sighting sighting;
+  BoxCounters counters;
+  std::int64_t source_errors = 0;     ///< turns in which the source said that it is gone
+  std::int64_t late = 0;              ///< fields whose sighting came after the deadline
+  LatencyHistogram step;              ///< from the field in hand to everything done that follows
+  LatencyHistogram grab_to_sighting;  ///< from the field's instant to the same
+  bool lamp = false;                  ///< somebody dims it
+  std::int32_t lamp_permille = 0;     ///< level in force
+  bool scheduled = false;             ///< the thread has SCHED_FIFO
+};
+
+/// The thread that tracks: takes each field from the source at its instant, steps, answers.
+///
+/// Whatever happens to the source, a turn is made at its rate, without a field where there is none.
+/// A turn allocates nothing and waits for the source alone.
+class TrackingThread {
+ public:
+  using Loop = BoxLoop<core::FixedPoint>;
+
+  /// All outlive the thread. The loop and the source are started by others. The robot reads over
+  /// `link` how the box is doing; null: there is none.
+  TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+                 const RealTimeSettings& settings);
+  TrackingThread(const TrackingThread&) = delete;
+  TrackingThread& operator=(const TrackingThread&) = delete;
+  ~TrackingThread() { stop(); }
+
+  /// Runs turns on a thread of its own from now on. Says why that has no real-time priority; empty
+  /// where it has, or none was wanted.
+  [[nodiscard]] std::string start();
+  void stop();
+
+  /// One turn, on the thread that calls: what start() repeats.
+  void turn();
+
+  /// What the last turn left; false before the first. Any thread.
+  [[nodiscard]] bool status(TrackingStatus& status) const { return latest_.try_read(status); }
+
+ private:
+  void run();
+  void measure();
+  void publish();
+  void tell_robot();
+
+  Loop* loop_;
+  PlayedSource* source_;
+  KeptLink* link_;
+  RealTimeSettings settings_;
+  std::thread thread_;
+  std::atomic<bool> stopping_{false};
+  std::string no_priority_;  ///< why; written before ready_
+  Wakeup ready_;
+  TrackingStatus now_;
+  std::int64_t dimmer_errors_ = 0;  ///< at the turn before
+  core::Snapshot<TrackingStatus> latest_;
+  MonotonicTime next_without_{0};  ///< when a turn without a field is due
+};
+
+}  // namespace tubesight::board

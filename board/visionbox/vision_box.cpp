@@ -1,0 +1,133 @@
+#include "board/visionbox/vision_box.h"
+
+#include "board/visionbox/link_identity.h"
+#include "board/visionbox/replay_player.h"
+#include "board/visionbox/simulated_player.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::Error;
+using core::Result;
+using core::Unexpected;
+
+std::unique_ptr<FieldPlayer> make_player(const BoxSettings& settings) {
+  if (settings.source.kind == SourceKind::kSimulated) {
+    return std::make_unique<SimulatedPlayer>(settings.scenario.scenario, settings.source.script);
+  }
+  return std::make_unique<ReplayPlayer>(settings.told(), settings.source.recording,
+                                        settings.source.script);
+}
+
+/// Null: there is none.
+std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Clock& clock,
+                                    const VisionBox::Tell& tell) {
+  if (settings.link.kind == LinkKind::kNone) {
+    return nullptr;
+  }
+  return std::make_unique<KeptLink>(settings.link.modbus, link_identity(settings.told()), clock,
+                                    tell);
+}
+
+}  // namespace
+
+VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
+    : settings_(&settings),
+      tell_(std::move(tell)),
+      player_(make_player(settings)),
+      source_(*player_, source_settings(), tell_),
+      kept_link_(make_link(settings, source_.clock(), tell_)),
+      pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
+      loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
+      tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
+
+PlayedSourceSettings VisionBox::source_settings() const {
+  const core::CameraSettings& camera = settings_->told().camera;
+  PlayedSourceSettings source;
+  source.loop = settings_->source.loop;
+  source.width_px = camera.width_px;
+  source.height_px = camera.height_px;
+  return source;
+}
+
+/// A robot that is there takes the scripted one's place.
+BoxPorts VisionBox::ports() {
+  hal::RobotLink* link = kept_link_.get();
+  if (link == nullptr) {
+    link = &scripted_link_;
+  }
+  return {&source_, &source_.clock(), player_->has_lamp() ? &dimmer_ : nullptr, link, &station_};
+}
+
+Result<void> VisionBox::start_without_tracking() {
+  if (started_) {
+    return Unexpected(Error::kNotReady);
+  }
+  const core::SessionSettings& session = settings_->told();
+  TUBESIGHT_TRY(session_.configure(session));
+  TUBESIGHT_TRY(poses_.configure(session));
+  started_ = true;
+  started_at_ = monotonic_now();
+  TUBESIGHT_TRY(source_.start());
+  if (const auto started = loop_.start(); !started) {
+    tell_("the lamp cannot be started");
+    source_.stop();
+    started_ = false;
+    return started;
+  }
+  pose_worker_.start();
+  return {};
+}
+
+Result<void> VisionBox::start() {
+  if (settings_->real_time.lock_memory) {
+    const std::string why = lock_all_memory();
+    memory_locked_ = why.empty();
+    if (!memory_locked_) {
+      tell_("memory is not locked: " + why);
+    }
+  }
+  TUBESIGHT_TRY(start_without_tracking());
+  if (const std::string why = tracking_.start(); !why.empty()) {
+    tell_("the tracking thread has no real-time priority: " + why);
+  }
+  return {};
+}
+
+void VisionBox::stop() {
+  if (!started_) {
+    return;
+  }
+  started_ = false;
+  tracking_.stop();
+  pose_worker_.stop();
+  loop_.stop();
+  source_.stop();
+}
+
+void VisionBox::look_after() {
+  if (kept_link_ != nullptr) {
+    kept_link_->look_after(monotonic_now());
+  }
+}
+
+BoxReport VisionBox::report() const {
+  BoxReport report;
+  report.turned = tracking_.status(report.tracking);
+  report.up = monotonic_now() - started_at_;
+  report.source_kind = settings_->source.kind == SourceKind::kSimulated ? "simulated" : "replay";
+  report.source = source_.state();
+  report.span = source_.span();
+  report.passes = source_.passes();
+  report.failures = source_.failures();
+  report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
+  report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
+  report.priority = settings_->real_time.priority;
+  report.lock_wanted = settings_->real_time.lock_memory;
+  report.memory_locked = memory_locked_;
+  report.deadline_ms = settings_->real_time.deadline_ms;
+  report.poses_passed_over = pose_handover_.passed_over();
+  return report;
+}
+
+}  // namespace tubesight::board

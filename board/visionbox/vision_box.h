@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "board/box/box_loop.h"
+#include "board/box/pose_handover.h"
+#include "board/box/pose_service.h"
+#include "board/visionbox/box_report.h"
+#include "board/visionbox/box_settings.h"
+#include "board/visionbox/field_player.h"
+#include "board/visionbox/kept_link.h"
+#include "board/visionbox/played_source.h"
+#include "board/visionbox/pose_worker.h"
+#include "board/visionbox/script_ports.h"
+#include "board/visionbox/tracking_thread.h"
+#include "core/base/result.h"
+#include "core/session/session.h"
+#include "drivers/control/socket_station.h"
+
+namespace tubesight::board {
+
+/// All objects of the box and how they hang together; the only place that knows.
+///
+/// Which threads there are: the tracking thread (real time), that of the source, that of poses, and
+/// the caller's. What crosses between them does so through queues and snapshots that nobody waits
+/// for. Some 4 MB: heap.
+class VisionBox {
+ public:
+  using Tell = std::function<void(const std::string&)>;
+
+  /// `settings` were read by load_box_settings() and outlive the box; `tell` takes lines for a
+  /// person, on several threads.
+  VisionBox(const BoxSettings& settings, Tell tell);
+  VisionBox(const VisionBox&) = delete;
+  VisionBox& operator=(const VisionBox&) = delete;
+  ~VisionBox() { stop(); }
+
+  /// Starts everything; the box then waits for a start. A link that cannot be opened is told and
+  /// tried again. Errors: kNotReady started already, and those of the lamp, told.
+  [[nodiscard]] core::Result<void> start();
+
+  /// The same but for the tracking thread: the caller makes the turns of tracking() himself.
+  [[nodiscard]] core::Result<void> start_without_tracking();
+
+  /// Stops everything; the lamp goes dark.
+  void stop();
+
+  /// Does what is left to do beside the tracking: opens a link that could not be opened. To be
+  /// called now and then, on the thread that started the box.
+  void look_after();
+
+  [[nodiscard]] BoxReport report() const;
+
+  [[nodiscard]] drivers::SocketStation& station() { return socket_station_; }
+  [[nodiscard]] TrackingThread& tracking() { return tracking_; }
+  [[nodiscard]] const TrackingThread::Loop& loop() const { return loop_; }
+
+ private:
+  [[nodiscard]] PlayedSourceSettings source_settings() const;
+  [[nodiscard]] BoxPorts ports();
+
+  const BoxSettings* settings_;
+  Tell tell_;
+  bool started_ = false;
+  bool memory_locked_ = false;
+  MonotonicTime started_at_{0};
+
+  std::unique_ptr<FieldPlayer> player_;
+  PlayedSource source_;
+  PlayedDimmer dimmer_{source_};
+
+  drivers::SocketStation socket_station_;
+  ScriptedLink scripted_link_{source_};
+  std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
+  ScriptedStation station_{source_, socket_station_, kept_link_ == nullptr};
+
+  core::session::Session<core::FixedPoint> session_;
+  PoseService poses_;
+  PoseHandover pose_handover_;
+  PoseWorker pose_worker_{pose_handover_};
+
+  TrackingThread::Loop loop_;
+  TrackingThread tracking_;
+};
+
+}  // namespace tubesight::board

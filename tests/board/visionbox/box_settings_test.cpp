@@ -1,0 +1,209 @@
+#include "board/visionbox/box_settings.h"
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
+
+namespace tubesight::board {
+namespace {
+
+class BoxSettingsTest : public ::testing::Test {
+ protected:
+  BoxSettingsTest() { folder_.write("recording.y4m", "not looked into"); }
+
+  /// A box that includes the shipped session, with this text behind.
+  bool load(const std::string& text) {
+    messages_.clear();
+    folder_.write("box.toml", std::string("include = [\"") + TUBESIGHT_TEST_DATA_DIR +
+                                  "/recordings/square_flush/session.toml\"]\n" + text);
+    return static_cast<bool>(load_box_settings(folder_.path("box.toml"), *box_, messages_));
+  }
+  bool told(const std::string& part) const {
+    for (const std::string& message : messages_) {
+      if (message.find(part) != std::string::npos) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  support::TemporaryFolder folder_;
+  std::unique_ptr<BoxSettings> box_ = std::make_unique<BoxSettings>();
+  drivers::Messages messages_;
+};
+
+constexpr const char* kSource = "[source]\nkind = \"replay\"\nrecording = \"recording.y4m\"\n";
+
+TEST_F(BoxSettingsTest, LittleIsEnough) {
+  ASSERT_TRUE(load(kSource)) << messages_.front();
+
+  EXPECT_EQ(box_->source.recording, folder_.path("recording.y4m"));
+  EXPECT_TRUE(box_->source.loop);
+  EXPECT_FALSE(box_->source.script);
+  EXPECT_EQ(box_->control_socket, "");
+  EXPECT_EQ(box_->real_time.priority, 50);
+  EXPECT_TRUE(box_->real_time.lock_memory);
+  EXPECT_EQ(box_->real_time.deadline_ms, 10.0);
+  EXPECT_EQ(box_->link.kind, LinkKind::kNone);
+  EXPECT_EQ(box_->session.settings.start.tubes.size(), 3);
+}
+
+TEST_F(BoxSettingsTest, EveryKeyIsRead) {
+  ASSERT_TRUE(load(std::string(kSource) +
+                   "at_end = \"end\"\nscript = true\n[control]\nsocket = \"/run/box\"\n"
+                   "[realtime]\npriority = 0\nlock_memory = false\ndeadline_ms = 3\n"
+                   "[link]\nkind = \"none\"\n"))
+      << messages_.front();
+
+  EXPECT_FALSE(box_->source.loop);
+  EXPECT_TRUE(box_->source.script);
+  EXPECT_EQ(box_->control_socket, "/run/box");
+  EXPECT_EQ(box_->real_time.priority, 0);
+  EXPECT_FALSE(box_->real_time.lock_memory);
+  EXPECT_EQ(box_->real_time.deadline_ms, 3.0);
+}
+
+TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
+  EXPECT_FALSE(
+      load("[source]\nkind = \"camera\"\nat_end = \"stop\"\nscript = 1\n"
+           "recording = \"gone.y4m\"\nspeed = 2\n"
+           "[control]\nsocket = \"" +
+           std::string(200, 'x') +
+           "\"\n"
+           "[realtime]\npriority = 100\nlock_memory = \"yes\"\ndeadline_ms = 0\n"
+           "[link]\nkind = \"pigeon\"\n[recorder]\n"));
+
+  EXPECT_TRUE(told("box.toml:3: source.kind: "));
+  EXPECT_TRUE(told("box.toml:4: source.at_end: "));
+  EXPECT_TRUE(told("box.toml:5: source.script: "));
+  EXPECT_TRUE(told("box.toml:6: source.recording: there is no file '" + folder_.path("gone.y4m")));
+  EXPECT_TRUE(told("box.toml:7: source.speed: unknown key"));
+  EXPECT_TRUE(told("box.toml:9: control.socket: "));
+  EXPECT_TRUE(told("box.toml:11: realtime.priority: 100"));
+  EXPECT_TRUE(told("box.toml:12: realtime.lock_memory: "));
+  EXPECT_TRUE(told("box.toml:13: realtime.deadline_ms: 0"));
+  EXPECT_TRUE(told("box.toml:15: link.kind: the text 'pigeon', expected \"none\" or \"modbus\""));
+  EXPECT_TRUE(told("box.toml:16: [recorder]: unknown table"));
+  EXPECT_EQ(messages_.size(), 11U);
+}
+
+TEST_F(BoxSettingsTest, ALinkHasModbussOwnDefaults) {
+  ASSERT_TRUE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\n"))
+      << messages_.front();
+
+  EXPECT_EQ(box_->link.kind, LinkKind::kModbus);
+  const drivers::ModbusSettings& modbus = box_->link.modbus;
+  EXPECT_EQ(modbus.serial.line.device, "/dev/ttyS9");
+  EXPECT_EQ(modbus.serial.line.baud, 19'200);
+  EXPECT_EQ(modbus.serial.line.parity, drivers::SerialParity::kEven);
+  EXPECT_EQ(modbus.serial.line.stop_bits, 1);
+  EXPECT_FALSE(modbus.serial.line.rs485);
+  EXPECT_EQ(modbus.serial.unit, 1);
+  EXPECT_EQ(modbus.word_order, drivers::WordOrder::kHighFirst);
+  EXPECT_LT(modbus.tcp_port, 0) << "off";
+}
+
+TEST_F(BoxSettingsTest, EveryKeyOfALinkIsRead) {
+  ASSERT_TRUE(load(std::string(kSource) +
+                   "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\nbaud = 115200\n"
+                   "parity = \"none\"\nstop_bits = 2\nrs485 = true\nunit = 247\n"
+                   "word_order = \"low-first\"\ntcp_address = \"0.0.0.0\"\ntcp_port = 502\n"))
+      << messages_.front();
+
+  const drivers::ModbusSettings& modbus = box_->link.modbus;
+  EXPECT_EQ(modbus.serial.line.baud, 115'200);
+  EXPECT_EQ(modbus.serial.line.parity, drivers::SerialParity::kNone);
+  EXPECT_EQ(modbus.serial.line.stop_bits, 2);
+  EXPECT_TRUE(modbus.serial.line.rs485);
+  EXPECT_EQ(modbus.serial.unit, 247);
+  EXPECT_EQ(modbus.word_order, drivers::WordOrder::kLowFirst);
+  EXPECT_EQ(modbus.tcp_address, "0.0.0.0");
+  EXPECT_EQ(modbus.tcp_port, 502);
+}
+
+TEST_F(BoxSettingsTest, EveryMistakeOfALinkIsTold) {
+  EXPECT_FALSE(load(std::string(kSource) +
+                    "[link]\nkind = \"modbus\"\ndevice = \"ttyUSB0\"\nbaud = 19201\n"
+                    "parity = \"mark\"\nstop_bits = 3\nrs485 = 1\nunit = 248\n"
+                    "word_order = \"big\"\ntcp_address = \"localhost\"\ntcp_port = 0\n"
+                    "speed = 1\n"));
+
+  EXPECT_TRUE(told("box.toml:7: link.device: 'ttyUSB0', expected a path from the root"));
+  EXPECT_TRUE(told("box.toml:8: link.baud: 19201, expected a usual rate"));
+  EXPECT_TRUE(told("box.toml:9: link.parity: "));
+  EXPECT_TRUE(told("box.toml:10: link.stop_bits: 3"));
+  EXPECT_TRUE(told("box.toml:11: link.rs485: "));
+  EXPECT_TRUE(told("box.toml:12: link.unit: 248"));
+  EXPECT_TRUE(told("box.toml:13: link.word_order: "));
+  EXPECT_TRUE(told("box.toml:14: link.tcp_address: 'localhost', expected four numbers"));
+  EXPECT_TRUE(told("box.toml:15: link.tcp_port: 0"));
+  EXPECT_TRUE(told("box.toml:16: link.speed: unknown key"));
+  EXPECT_EQ(messages_.size(), 10U);
+}
+
+TEST_F(BoxSettingsTest, AModbusLinkNeedsALineAndKeysThatNobodyObeysAreMistakes) {
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\n"));
+  EXPECT_TRUE(told("link.kind: modbus without a line, expected a device, a tcp_port or both"));
+  EXPECT_EQ(messages_.size(), 1U);
+
+  EXPECT_FALSE(
+      load(std::string(kSource) + "[link]\nkind = \"modbus\"\ntcp_port = 1502\nbaud = 9600\n"));
+  EXPECT_TRUE(told("link.baud: of a serial line, which needs a device"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\n"
+                                           "tcp_address = \"0.0.0.0\"\n"));
+  EXPECT_TRUE(told("link.tcp_address: of TCP, which needs a tcp_port"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[link]\nkind = \"none\"\nunit = 1\n"));
+  EXPECT_TRUE(told("link.unit: of another kind of link, expected it left out"));
+}
+
+TEST_F(BoxSettingsTest, MistakesOfTheSessionAreToldWithThem) {
+  folder_.write("box.toml", "[source]\nkind = \"replay\"\n[camera]\nwidth_px = 5\n");
+
+  EXPECT_FALSE(load_box_settings(folder_.path("box.toml"), *box_, messages_));
+
+  EXPECT_TRUE(told("source.recording: missing"));
+  EXPECT_TRUE(told("camera.width_px: 5"));
+  EXPECT_TRUE(told("tubesheet: the table is missing"));
+}
+
+TEST_F(BoxSettingsTest, ASimulationBringsItsSession) {
+  folder_.write("box.toml", "[source]\nkind = \"simulated\"\nscenario = \"" +
+                                std::string(TUBESIGHT_SOURCE_DIR) +
+                                "/docs/examples/steam-generator.toml\"\n");
+
+  ASSERT_TRUE(load_box_settings(folder_.path("box.toml"), *box_, messages_)) << messages_.front();
+
+  EXPECT_EQ(box_->source.kind, SourceKind::kSimulated);
+  EXPECT_EQ(box_->told().camera.width_px, 635);
+  EXPECT_EQ(box_->told().start.tubes.size(), 3) << "clicks made of the truth";
+}
+
+TEST_F(BoxSettingsTest, MistakesOfAScenarioAreToldWithThoseOfTheBox) {
+  folder_.write("scenario.toml", "[camera]\nwidth_px = 5\n");
+  folder_.write("box.toml",
+                "[source]\nkind = \"simulated\"\nscenario = \"scenario.toml\"\nspeed = 1\n"
+                "recording = \"recording.y4m\"\n[motion]\n");
+
+  EXPECT_FALSE(load_box_settings(folder_.path("box.toml"), *box_, messages_));
+
+  EXPECT_TRUE(told("box.toml:4: source.speed: unknown key"));
+  EXPECT_TRUE(told("box.toml:5: source.recording: of another kind of source"));
+  EXPECT_TRUE(told("box.toml:6: motion: a simulated source has the tables of its scenario"));
+  EXPECT_TRUE(told("scenario.toml:2: camera.width_px: 5"));
+  EXPECT_TRUE(told("scenario.toml: tubesheet: the table is missing") ||
+              told("tubesheet: the table is missing"));
+}
+
+TEST_F(BoxSettingsTest, WithoutASourceThereIsNoBox) {
+  EXPECT_FALSE(load(""));
+
+  EXPECT_TRUE(told("source: the table is missing"));
+}
+
+}  // namespace
+}  // namespace tubesight::board
