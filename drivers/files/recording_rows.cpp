@@ -1,4 +1,4 @@
-#include "board/bench/simulate/event_rows.h"
+#include "drivers/files/recording_rows.h"
 
 #include <array>
 #include <cmath>
@@ -7,20 +7,20 @@
 #include "core/base/names.h"
 #include "drivers/files/decimal.h"
 
-namespace tubesight::board {
+namespace tubesight::drivers {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 void append_address(std::string& out, core::TubeAddress address) {
-  drivers::append_whole(out, address.row);
+  append_whole(out, address.row);
   out += ',';
-  drivers::append_whole(out, address.column);
+  append_whole(out, address.column);
 }
 
 void append_scaled(std::string& out, double value, std::int32_t digits) {
   const double scale = std::pow(10.0, digits);
-  drivers::append_decimal(out, std::llround(value * scale), std::llround(scale), digits);
+  append_decimal(out, std::llround(value * scale), std::llround(scale), digits);
 }
 
 void append_pose_result(std::string& out, const core::PoseResult& pose) {
@@ -28,12 +28,12 @@ void append_pose_result(std::string& out, const core::PoseResult& pose) {
     out += core::name_of(pose.reason);
     return;
   }
-  drivers::append_whole(out, pose.tubes);
+  append_whole(out, pose.tubes);
   out += ',';
   append_address(out, pose.nearest);
   const auto append = [&out](std::int64_t value, std::int32_t digits, std::int64_t scale) {
     out += ',';
-    drivers::append_decimal(out, value, scale, digits);
+    append_decimal(out, value, scale, digits);
   };
   constexpr std::int64_t kMillimetre_nm = 1'000'000;
   constexpr std::int64_t kDegree_ndeg = 1'000'000'000;
@@ -82,7 +82,7 @@ void append_kind_and_values(std::string& out, const core::Event& event) {
           [&](const core::Start& start) { quoted("start", [&] { append_clicks(out, start); }); },
           [&](const core::LampCommand& lamp) {
             out += "lamp,";
-            drivers::append_whole(out, lamp.permille);
+            append_whole(out, lamp.permille);
           },
           [&](const core::PoseRequest&) { out += "pose,"; },
           [&](const core::Pick& pick) { quoted("pick", [&] { append_places(out, pick.at_px); }); },
@@ -96,15 +96,15 @@ void append_kind_and_values(std::string& out, const core::Event& event) {
 }  // namespace
 
 void append_event_row(std::string& out, std::int64_t field, const core::Event& event) {
-  drivers::append_whole(out, field);
+  append_whole(out, field);
   out += ',';
   if (event.at) {
-    drivers::append_decimal(out, event.at->count(), kSecond_ns, 9);
+    append_decimal(out, event.at->count(), kSecond_ns, 9);
   }
   out += ',';
   append_kind_and_values(out, event);
   out += ',';
-  drivers::append_whole(out, event.id);
+  append_whole(out, event.id);
   out += ',';
   const auto* const start = core::content_if<core::Start>(event);
   const auto* const pick = core::content_if<core::Pick>(event);
@@ -112,26 +112,26 @@ void append_event_row(std::string& out, std::int64_t field, const core::Event& e
                     : pick != nullptr ? pick->seen_field
                                       : std::nullopt;
   if (seen) {
-    drivers::append_whole(out, *seen);
+    append_whole(out, *seen);
   }
   out += start != nullptr && start->confirmed ? ",1\n" : ",\n";
 }
 
 void append_meta_row(std::string& out, const core::Field& field) {
-  drivers::append_whole(out, field.number);
+  append_whole(out, field.number);
   out += ',';
   if (field.status != core::FieldStatus::kMissing) {
-    drivers::append_whole(out, field.sequence);
+    append_whole(out, field.sequence);
   }
   out += ',';
-  drivers::append_decimal(out, field.mid_exposure.count(), kSecond_ns, 9);
+  append_decimal(out, field.mid_exposure.count(), kSecond_ns, 9);
   switch (field.status) {
     case core::FieldStatus::kGood: out += ",good,"; break;
     case core::FieldStatus::kDamaged: out += ",damaged,"; break;
     case core::FieldStatus::kMissing: out += ",missing,"; break;
   }
-  drivers::append_whole(out, field.lamp_permille);
+  append_whole(out, field.lamp_permille);
   out += '\n';
 }
 
-}  // namespace tubesight::board
+}  // namespace tubesight::drivers
