@@ -39,6 +39,8 @@ Result<void> BoxLoop<S, Margin>::start() {
   started_ = true;
   if (!started) {
     stop();
+  } else if (services_.recorder != nullptr) {
+    keep_state();
   }
   return started;
 }
@@ -123,6 +125,7 @@ void BoxLoop<S, Margin>::take(const core::Field& field) {
   set_lamp();
   serve_poses();
   publish();
+  record();
 }
 
 /// The events since the last field in time order, as many as a step takes; the others wait where
@@ -247,6 +250,24 @@ void BoxLoop<S, Margin>::publish() {
   if (services_.overlay != nullptr) {
     describe<S>(*session_, output_, input_.field.number, services_.estimates, overlay_);
     services_.overlay->publish(overlay_);
+  }
+}
+
+/// Last of all, when everybody has his answer.
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::record() {
+  if (services_.recorder != nullptr) {
+    services_.recorder->take(input_, output_);
+    keep_state();
+  }
+}
+
+/// Before the next step, where the recorder wants to begin a segment with it.
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::keep_state() {
+  const std::span<std::byte> into = services_.recorder->state_wanted();
+  if (!into.empty()) {
+    services_.recorder->put_state(session_->save(into).value_or(0));
   }
 }
 
