@@ -51,58 +51,74 @@ void append_pose_result(std::string& out, const core::PoseResult& pose) {
   append(pose.offset_nm, 6, kMillimetre_nm);
 }
 
-void append_places(std::string& out, const std::array<double, 2>& at_px) {
-  append_scaled(out, at_px[0], 3);
-  out += ',';
-  append_scaled(out, at_px[1], 3);
+/// How places are written.
+enum class Places : std::uint8_t {
+  kThousandths,  ///< as a person reads them
+  kExactly,      ///< so that the same number is read back
+};
+
+void append_place(std::string& out, double place_px, Places places) {
+  if (places == Places::kThousandths) {
+    append_scaled(out, place_px, 3);
+  } else {
+    out += number_text(place_px);
+  }
 }
 
-void append_clicks(std::string& out, const core::Start& start) {
+void append_places(std::string& out, const std::array<double, 2>& at_px, Places places) {
+  append_place(out, at_px[0], places);
+  out += ',';
+  append_place(out, at_px[1], places);
+}
+
+void append_clicks(std::string& out, const core::Start& start, Places places) {
   for (std::int32_t i = 0; i < start.tubes.size(); ++i) {
     out += i > 0 ? ";" : "";
     append_address(out, start.tubes[i].address);
     out += ',';
-    append_places(out, start.tubes[i].at_px);
+    append_places(out, start.tubes[i].at_px, places);
   }
 }
 
 /// The columns `kind,values`.
-void append_kind_and_values(std::string& out, const core::Event& event) {
+void append_kind_and_values(std::string& out, const core::Event& event, Places places) {
   const auto quoted = [&out](const char* kind, const auto& append) {
     out += kind;
     out += ",\"";
     append();
     out += '"';
   };
-  std::visit(
-      core::Overloaded{
-          [&](const core::Claim& claim) {
-            quoted("claim", [&] { append_address(out, claim.tube); });
-          },
-          [&](const core::Start& start) { quoted("start", [&] { append_clicks(out, start); }); },
-          [&](const core::LampCommand& lamp) {
-            out += "lamp,";
-            append_whole(out, lamp.permille);
-          },
-          [&](const core::PoseRequest&) { out += "pose,"; },
-          [&](const core::Pick& pick) { quoted("pick", [&] { append_places(out, pick.at_px); }); },
-          [&](const core::Acknowledge&) { out += "acknowledge,"; },
-          [&](const core::PoseResult& pose) {
-            quoted("pose-result", [&] { append_pose_result(out, pose); });
-          }},
-      event.content);
+  std::visit(core::Overloaded{[&](const core::Claim& claim) {
+                                quoted("claim", [&] { append_address(out, claim.tube); });
+                              },
+                              [&](const core::Start& start) {
+                                quoted("start", [&] { append_clicks(out, start, places); });
+                              },
+                              [&](const core::LampCommand& lamp) {
+                                out += "lamp,";
+                                append_whole(out, lamp.permille);
+                              },
+                              [&](const core::PoseRequest&) { out += "pose,"; },
+                              [&](const core::Pick& pick) {
+                                quoted("pick", [&] { append_places(out, pick.at_px, places); });
+                              },
+                              [&](const core::Acknowledge&) { out += "acknowledge,"; },
+                              [&](const core::PoseResult& pose) {
+                                quoted("pose-result", [&] { append_pose_result(out, pose); });
+                              }},
+             event.content);
 }
 
-}  // namespace
-
-void append_event_row(std::string& out, std::int64_t field, const core::Event& event) {
+/// The columns that all event files have, without the line feed.
+void append_event_cells(std::string& out, std::int64_t field, const core::Event& event,
+                        Places places) {
   append_whole(out, field);
   out += ',';
   if (event.at) {
     append_decimal(out, event.at->count(), kSecond_ns, 9);
   }
   out += ',';
-  append_kind_and_values(out, event);
+  append_kind_and_values(out, event, places);
   out += ',';
   append_whole(out, event.id);
   out += ',';
@@ -114,7 +130,19 @@ void append_event_row(std::string& out, std::int64_t field, const core::Event& e
   if (seen) {
     append_whole(out, *seen);
   }
-  out += start != nullptr && start->confirmed ? ",1\n" : ",\n";
+  out += start != nullptr && start->confirmed ? ",1" : ",";
+}
+
+}  // namespace
+
+void append_event_row(std::string& out, std::int64_t field, const core::Event& event) {
+  append_event_cells(out, field, event, Places::kThousandths);
+  out += '\n';
+}
+
+void append_recorded_event_row(std::string& out, std::int64_t field, const core::Event& event) {
+  append_event_cells(out, field, event, Places::kExactly);
+  out += event.origin == core::EventOrigin::kRobot ? ",robot\n" : ",operator\n";
 }
 
 void append_meta_row(std::string& out, const core::Field& field) {
