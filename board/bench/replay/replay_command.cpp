@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -60,13 +61,28 @@ class Replay {
     if (good) {
       grabber_ = std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera,
                                                                options_.recording);
+      if (!read_state(messages)) {
+        tell(messages);
+        return false;
+      }
       good = static_cast<bool>(grabber_->start());
       messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
     }
-    good = good && fields_come_often_enough(messages);
+    good = good && (has_state_ || fields_come_often_enough(messages));
     good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
     tell(messages);
     return good;
+  }
+
+  /// With a state beside it, the recording is of a box's recorder.
+  bool read_state(drivers::Messages& messages) {
+    const auto present = drivers::read_companion(
+        drivers::companion_path(options_.recording, ".state"), state_, messages);
+    has_state_ = present.value_or(false);
+    if (has_state_) {
+      grabber_->follow_rows();
+    }
+    return present.has_value();
   }
 
   /// A recording that no track can follow whatever it shows is refused before anything is written.
@@ -110,8 +126,11 @@ class Replay {
   }
 
   ReplayEnd replay() {
-    const ReplayInputs inputs{options_.session, options_.recording, session_file_->settings,
-                              *grabber_, events_};
+    ReplayInputs inputs{
+        options_.session, options_.recording, session_file_->settings, *grabber_, events_, {}};
+    if (has_state_) {
+      inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
+    }
     const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
                                 poses_,   pose_rows_,     statistics_,
                                 progress_};
@@ -171,6 +190,8 @@ class Replay {
   std::unique_ptr<drivers::SessionFile> session_file_ = std::make_unique<drivers::SessionFile>();
   std::unique_ptr<drivers::ReplayFrameGrabber> grabber_;
   drivers::ReplayEvents events_;
+  std::string state_;
+  bool has_state_ = false;
   ResultFiles results_;
   std::unique_ptr<OverlaySink> overlay_;
   PoseService poses_;

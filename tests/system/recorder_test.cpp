@@ -1,0 +1,204 @@
+// What a box records from the middle of a mission replays to the bytes that the whole mission gave.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "board/bench/script/replay_script.h"
+#include "board/bench/script/scripted_ports.h"
+#include "board/box/box_loop.h"
+#include "board/box/event_recorder.h"
+#include "board/box/pose_service.h"
+#include "drivers/recording/file_recording_store.h"
+#include "drivers/replay/replay_clock.h"
+#include "drivers/replay/replay_events.h"
+#include "drivers/replay/replay_frame_grabber.h"
+#include "drivers/settings/session_settings.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/system/program.h"
+
+namespace tubesight::tests {
+namespace {
+
+using core::FixedPoint;
+
+const std::string kData = std::string(TUBESIGHT_TEST_DATA_DIR) + "/";
+
+/// Lines of a results file, each with the field that it begins with.
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+/// A box that sees a recording's fields, hears its events, and records by itself.
+struct RecordedBox {
+  support::TemporaryFolder folder;
+  std::vector<std::string> recordings;  ///< paths without ending
+
+  /// `asked`: fields after which somebody asks for a recording.
+  void play(const std::string& session_file, const std::string& recording,
+            const std::vector<std::int64_t>& asked) {
+    const auto file = std::make_unique<drivers::SessionFile>();
+    drivers::Messages messages;
+    ASSERT_TRUE(
+        drivers::load_session_settings(session_file, drivers::kReplayNeeds, *file, messages));
+    drivers::ReplayFrameGrabber grabber(file->settings.camera, recording);
+    drivers::ReplayEvents events;
+    ASSERT_TRUE(grabber.start());
+    ASSERT_TRUE(events.load_beside(recording, messages));
+    const drivers::ReplayClock clock(grabber);
+    board::ReplayScript script(file->settings.start, events, grabber);
+    board::ScriptedRobotLink link(script);
+    board::ScriptedOperatorStation station(script);
+    const auto session = std::make_unique<core::session::Session<FixedPoint>>();
+    ASSERT_TRUE(session->configure(file->settings));
+    board::PoseService poses;
+    ASSERT_TRUE(poses.configure(file->settings));
+    board::EventRecorder recorder;
+    board::RecorderSettings settings;
+    settings.memory_mb = 64;
+    settings.fields_after = 20;
+    ASSERT_TRUE(recorder.configure(settings, file->settings.camera,
+                                   core::session::Session<FixedPoint>::state_bytes()));
+    drivers::FileRecordingStore store(folder.path("."), 200, [] { return std::int64_t{0}; });
+    ASSERT_TRUE(store.open());
+    board::BoxServices services;
+    services.poses = events.has_pose_results() ? nullptr : &poses;
+    services.recorder = &recorder;
+    const auto loop = std::make_unique<board::BoxLoop<FixedPoint>>(
+        *session, board::BoxPorts{&grabber, &clock, nullptr, &link, &station}, services);
+    ASSERT_TRUE(loop->start());
+    const auto write = [&] {
+      while (recorder.write_next(store)) {
+        recordings.push_back(store.path());
+      }
+    };
+    for (std::int64_t field = 0; loop->turn(std::chrono::milliseconds(0)); ++field) {
+      if (std::find(asked.begin(), asked.end(), field) != asked.end()) {
+        recorder.request();
+      }
+      write();
+    }
+    recorder.flush();
+    write();
+    EXPECT_EQ(recorder.counters().failed, 0U) << store.message();
+    EXPECT_EQ(recorder.counters().restarted, 0U);
+  }
+
+  /// Replays each recording and compares its rows with those of the whole.
+  void expect_rows_of(const std::string& session_file, const std::string& recording) {
+    const ProgramRun whole = run_tubesight(folder, {"replay", session_file, recording, "--fields",
+                                                    "whole.csv", "--centers", "wc.csv"});
+    ASSERT_EQ(whole.status, 0) << whole.err;
+    const std::string fields = folder.read("whole.csv");
+    const std::string centers = folder.read("wc.csv");
+    for (const std::string& part : recordings) {
+      const ProgramRun run = run_tubesight(folder, {"replay", session_file, part + ".y4m",
+                                                    "--fields", "part.csv", "--centers", "pc.csv"});
+      ASSERT_EQ(run.status, 0) << run.err;
+      EXPECT_EQ(run.err, "");
+      expect_part(fields, folder.read("part.csv"), part, true);
+      expect_part(centers, folder.read("pc.csv"), part, false);
+    }
+  }
+
+ private:
+  /// The header, and then lines of the whole in a row.
+  static void expect_part(const std::string& whole, const std::string& part,
+                          const std::string& name, bool rows_needed) {
+    const auto lines = lines_of(part);
+    ASSERT_FALSE(lines.empty());
+    ASSERT_EQ(lines[0], lines_of(whole)[0]);
+    if (lines.size() == 1 && !rows_needed) {
+      return;
+    }
+    ASSERT_GT(lines.size(), 8U) << name;
+    const std::string rows = part.substr(lines[0].size());  // from the line feed on
+    EXPECT_NE(whole.find(rows), std::string::npos) << name << ": first row " << lines[1];
+  }
+};
+
+TEST(Recorder, ShippedRecordingReplaysFromItsMiddle) {
+  const std::string session = kData + "recordings/square_flush/session.toml";
+  const std::string recording = kData + "recordings/square_flush/recording.y4m.xz";
+  RecordedBox box;
+  box.play(session, recording, {12, 40});
+  ASSERT_EQ(box.recordings.size(), 2U);
+  box.expect_rows_of(session, recording);
+}
+
+/// Scenarios whose missions are recorded.
+class RecordedScenario : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RecordedScenario, ReplaysFromItsMiddle) {
+  RecordedBox box;
+  const ProgramRun simulated = run_tubesight(
+      box.folder,
+      {"simulate", kData + "scenarios/" + GetParam() + ".toml", "--out", "r", "--window-only"});
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  const std::string session = box.folder.path("r.session.toml");
+  const std::string recording = box.folder.path("r.y4m");
+  box.play(session, recording, {31, 160, 301, 420, 600});
+  EXPECT_GE(box.recordings.size(), 2U);
+  box.expect_rows_of(session, recording);
+}
+
+INSTANTIATE_TEST_SUITE_P(Library, RecordedScenario,
+                         ::testing::Values("claims-wrong", "fault-black-long", "fault-dropped",
+                                           "camera-progressive"));
+
+/// A recording of the shipped one's middle, to be damaged.
+class RecordedState : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    box_.play(kSession, kData + "recordings/square_flush/recording.y4m.xz", {20});
+    ASSERT_EQ(box_.recordings.size(), 1U);
+    name_ = box_.recordings[0].substr(box_.recordings[0].rfind('/') + 1);
+  }
+  void expect_refused(const std::string& session, const std::string& message) {
+    const ProgramRun run =
+        run_tubesight(box_.folder, {"replay", session, name_ + ".y4m", "--fields", "f.csv"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, name_ + message + "\n");
+    EXPECT_EQ(run.out, "");
+  }
+
+  const std::string kSession = kData + "recordings/square_flush/session.toml";
+  RecordedBox box_;
+  std::string name_;
+};
+
+TEST_F(RecordedState, IsRefusedInOneLineWhenDamaged) {
+  std::string state = box_.folder.read(name_ + ".state");
+  state[state.size() / 2] ^= 1;
+  box_.folder.write(name_ + ".state", state);
+  expect_refused(kSession, ".state: damaged or cut short, expected the file as the box wrote it");
+  box_.folder.write(name_ + ".state", "");
+  expect_refused(kSession, ".state: damaged or cut short, expected the file as the box wrote it");
+}
+
+TEST_F(RecordedState, IsRefusedInOneLineWithOtherSettings) {
+  const std::string other = box_.folder.path("other.toml");
+  std::string text;
+  {
+    std::ifstream file(kSession);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  box_.folder.write("other.toml", text + "\n[motion]\nmax_speed_mm_s = 299.0\n");
+  expect_refused(other, ".state: of a box with other settings, expected those of " + other);
+}
+
+}  // namespace
+}  // namespace tubesight::tests
