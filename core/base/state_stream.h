@@ -304,6 +304,12 @@ class StateDigest final : public StateStream<StateDigest> {
 
   /// Takes bytes, eight at a time.
   void add(std::span<const std::byte> bytes) {
+    while (std::endian::native == std::endian::little && bytes.size() >= 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data(), sizeof(word));
+      exchange<8>(word);
+      bytes = bytes.subspan(8);
+    }
     while (!bytes.empty()) {
       std::uint64_t word = 0;
       const std::size_t count = bytes.size() < 8 ? bytes.size() : 8;
