@@ -1,5 +1,6 @@
 #include "drivers/recording/file_recording_store.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -9,6 +10,8 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
@@ -167,6 +170,24 @@ TEST_F(StoreTest, RefusesARecordingThatNeverFits) {
   EXPECT_EQ(store_.begin(head_).error(), Error::kOutOfRange);
   EXPECT_NE(store_.message().find("bytes, expected at most the 1048576"), std::string::npos);
   EXPECT_TRUE(folder_.names().empty());
+}
+
+TEST_F(StoreTest, LeavesRemainsThatTheNextBoxRemovesWhenItIsKilled) {
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const bool begun = store_.begin(head_) && add(0) && add(1) && add(2);
+    static_cast<void>(::kill(::getpid(), begun ? SIGKILL : SIGTERM));
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  EXPECT_EQ(folder_.names().size(), 4U);
+  folder_.write("notes.y4m.1-0.part", "of somebody else");
+
+  ASSERT_TRUE(store_.open());
+
+  EXPECT_EQ(folder_.names(), std::vector<std::string>{"notes.y4m.1-0.part"});
 }
 
 /// Files of this process end at so many bytes, as on a full disk.
