@@ -55,15 +55,17 @@ class Replay {
  private:
   bool open_inputs() {
     drivers::Messages messages;
-    bool good = static_cast<bool>(drivers::load_session_settings(
-        options_.session, drivers::kReplayNeeds, *session_file_, messages));
+    bool good = read_state(messages);
+    drivers::NeededTables needed = drivers::kReplayNeeds;
+    needed.start = !has_state_;  // a box may have been started by its robot
+    good =
+        drivers::load_session_settings(options_.session, needed, *session_file_, messages) && good;
     // A recording can be judged only against sound settings, its events without any.
     if (good) {
       grabber_ = std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera,
                                                                options_.recording);
-      if (!read_state(messages)) {
-        tell(messages);
-        return false;
+      if (has_state_) {
+        grabber_->follow_rows();
       }
       good = static_cast<bool>(grabber_->start());
       messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
@@ -79,9 +81,6 @@ class Replay {
     const auto present = drivers::read_companion(
         drivers::companion_path(options_.recording, ".state"), state_, messages);
     has_state_ = present.value_or(false);
-    if (has_state_) {
-      grabber_->follow_rows();
-    }
     return present.has_value();
   }
 
