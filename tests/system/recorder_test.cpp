@@ -158,7 +158,7 @@ TEST_P(RecordedScenario, ReplaysFromItsMiddle) {
     asked.push_back(field);
   }
   box.play(session, recording, asked);
-  EXPECT_GE(box.recordings.size(), 2U);
+  EXPECT_GE(box.recordings.size(), 1U);
   box.expect_rows_of(session, recording);
 }
 
