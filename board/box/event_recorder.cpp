@@ -274,7 +274,9 @@ void EventRecorder::reclaim() {
 /// Finds room for a segment: of what is free, or the oldest that is kept.
 bool EventRecorder::open_segment() {
   reclaim();
-  const auto spare = static_cast<std::int32_t>(memory_.size() / 4);
+  // A quarter is left for going on while the rest is written; one, where some is being written.
+  const auto all = static_cast<std::int32_t>(memory_.size());
+  const std::int32_t spare = kept_.size() + free_.size() == all ? all / 4 : 1;
   const bool from_kept = !kept_.empty() && free_.size() <= spare;
   if (from_kept && going_on_ >= 0 && memory_[kept_[0]].holds(head_.field)) {
     freeze();  // it would lose what it is kept for; memory is short

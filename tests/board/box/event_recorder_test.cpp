@@ -270,6 +270,25 @@ TEST_F(RecorderBench, RefusesWhileAllMemoryWaitsToBeWritten) {
   }
 }
 
+TEST_F(RecorderBench, KeepsWhatFreeMemoryHoldsWhileARecordingWaits) {
+  settings_.memory_mb = 64;
+  configure();
+  steps(2 * recorder_->capacity_fields());
+  recorder_->request();
+  steps(6);
+  const std::int64_t frozen_to = next_;
+  steps(recorder_->capacity_fields());  // nobody writes
+  recorder_->request();
+  steps(6);
+  write_all();
+
+  ASSERT_EQ(store_.recordings.size(), 2U);
+  const auto& second = store_.recordings[1].steps;
+  EXPECT_GE(static_cast<int>(second.size()), recorder_->capacity_fields() / 8);
+  EXPECT_GE(second[0].field.number, frozen_to);
+  EXPECT_EQ(recorder_->counters().refused, 0U);
+}
+
 TEST_F(RecorderBench, CountsWhatTheStoreGivesUpAndGoesOn) {
   configure();
   store_.fail_begin = true;
