@@ -12,6 +12,16 @@ using core::Unexpected;
 /// Garbled messages that one turn looks past: a line of noise must not keep the field waiting.
 constexpr std::int32_t kMostGarbled = core::kMaxEventsPerField;
 
+/// That of a frame's other field.
+constexpr core::Parity other(core::Parity parity) {
+  switch (parity) {
+    case core::Parity::kEven: return core::Parity::kOdd;
+    case core::Parity::kOdd: return core::Parity::kEven;
+    case core::Parity::kProgressive: break;
+  }
+  return core::Parity::kProgressive;
+}
+
 }  // namespace
 
 template <core::Scalar S, typename Margin>
@@ -92,6 +102,11 @@ void BoxLoop<S, Margin>::turn_without_field() {
   // Files count two numbers a frame, of which a progressive one uses the first.
   const std::int64_t numbers = progressive ? 2 : 1;
   field.number = last_number_ + (last_number_ < 0 ? 1 : numbers);
+  if (!progressive) {
+    field.parity = field.number % 2 == 0 ? first_parity_ : other(first_parity_);
+  } else {
+    field.parity = core::Parity::kProgressive;
+  }
   number_shift_ += numbers;
   frame_half_missing_ = !progressive && !frame_half_missing_;
   ++counters_.missing;
@@ -108,6 +123,7 @@ void BoxLoop<S, Margin>::number(core::Field& field) {
   }
   field.number += number_shift_;
   parity_ = field.parity;
+  first_parity_ = field.number % 2 == 0 ? parity_ : other(parity_);
 }
 
 template <core::Scalar S, typename Margin>

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "board/bench/output/result_files.h"
 #include "board/bench/script/replay_script.h"
 #include "board/bench/script/scripted_ports.h"
 #include "board/box/box_loop.h"
@@ -24,6 +25,7 @@
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
 #include "drivers/settings/session_settings.h"
+#include "hal/frame_grabber.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/program.h"
 
@@ -44,14 +46,38 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// A camera of whose fields some come too late for their turn.
+class LateFrameGrabber final : public hal::FrameGrabber {
+ public:
+  /// Each `every`-th call gets none; 0: all get one.
+  LateFrameGrabber(hal::FrameGrabber& camera, int every) : camera_(&camera), every_(every) {}
+
+  core::Result<void> start() override { return camera_->start(); }
+  void stop() override { camera_->stop(); }
+  core::Result<hal::FieldLease> grab_for(std::chrono::milliseconds timeout) override {
+    ++calls_;
+    if (every_ > 0 && calls_ % every_ == 0) {
+      return core::Unexpected(core::Error::kTimeout);
+    }
+    return camera_->grab_for(timeout);
+  }
+  void give_back(std::int32_t /*buffer*/) override {}
+
+ private:
+  hal::FrameGrabber* camera_;
+  int every_;
+  int calls_ = 0;
+};
+
 /// A box that sees a recording's fields, hears its events, and records by itself.
 struct RecordedBox {
   support::TemporaryFolder folder;
   std::vector<std::string> recordings;  ///< paths without ending
 
-  /// `asked`: fields after which somebody asks for a recording.
+  /// `asked`: fields after which somebody asks for a recording. `late`: as LateFrameGrabber. What
+  /// the box says goes to live.csv.
   void play(const std::string& session_file, const std::string& recording,
-            const std::vector<std::int64_t>& asked) {
+            const std::vector<std::int64_t>& asked, int late = 0) {
     const auto file = std::make_unique<drivers::SessionFile>();
     drivers::Messages messages;
     ASSERT_TRUE(
@@ -60,6 +86,7 @@ struct RecordedBox {
     drivers::ReplayEvents events;
     ASSERT_TRUE(grabber.start());
     ASSERT_TRUE(events.load_beside(recording, messages));
+    LateFrameGrabber camera(grabber, late);
     const drivers::ReplayClock clock(grabber);
     board::ReplayScript script(file->settings.start, events, grabber);
     board::ScriptedRobotLink link(script);
@@ -80,7 +107,9 @@ struct RecordedBox {
     services.poses = events.has_pose_results() ? nullptr : &poses;
     services.recorder = &recorder;
     const auto loop = std::make_unique<board::BoxLoop<FixedPoint>>(
-        *session, board::BoxPorts{&grabber, &clock, nullptr, &link, &station}, services);
+        *session, board::BoxPorts{&camera, &clock, nullptr, &link, &station}, services);
+    board::ResultFiles live;
+    ASSERT_TRUE(live.open(folder.path("live.csv"), folder.path("live_centers.csv")));
     ASSERT_TRUE(loop->start());
     const auto write = [&] {
       while (recorder.write_next(store)) {
@@ -92,9 +121,13 @@ struct RecordedBox {
         recorder.request();
       }
       write();
+      const core::Field& given = loop->input().field;
+      ASSERT_TRUE(
+          live.add(given.number, given.parity, loop->output().sighting, loop->output().tubes));
     }
     recorder.flush();
     write();
+    ASSERT_TRUE(live.commit());
     EXPECT_EQ(recorder.counters().failed, 0U) << store.message();
     EXPECT_EQ(recorder.counters().restarted, 0U);
   }
@@ -104,8 +137,17 @@ struct RecordedBox {
     const ProgramRun whole = run_tubesight(folder, {"replay", session_file, recording, "--fields",
                                                     "whole.csv", "--centers", "wc.csv"});
     ASSERT_EQ(whole.status, 0) << whole.err;
-    const std::string fields = folder.read("whole.csv");
-    const std::string centers = folder.read("wc.csv");
+    expect_parts_of(session_file, folder.read("whole.csv"), folder.read("wc.csv"));
+  }
+
+  /// The same with the rows of the box that recorded.
+  void expect_live_rows(const std::string& session_file) {
+    expect_parts_of(session_file, folder.read("live.csv"), folder.read("live_centers.csv"));
+  }
+
+ private:
+  void expect_parts_of(const std::string& session_file, const std::string& fields,
+                       const std::string& centers) {
     for (const std::string& part : recordings) {
       const ProgramRun run = run_tubesight(folder, {"replay", session_file, part + ".y4m",
                                                     "--fields", "part.csv", "--centers", "pc.csv"});
@@ -116,7 +158,6 @@ struct RecordedBox {
     }
   }
 
- private:
   /// The header, and then lines of the whole in a row.
   static void expect_part(const std::string& whole, const std::string& part,
                           const std::string& name, bool rows_needed) {
@@ -139,6 +180,20 @@ TEST(Recorder, ShippedRecordingReplaysFromItsMiddle) {
   box.play(session, recording, {12, 40});
   ASSERT_EQ(box.recordings.size(), 2U);
   box.expect_rows_of(session, recording);
+}
+
+TEST(Recorder, FieldsThatNeverCameAreStepsOfTheReplay) {
+  const std::string session = kData + "recordings/square_flush/session.toml";
+  const std::string recording = kData + "recordings/square_flush/recording.y4m.xz";
+  for (const int late : {4, 7, 9}) {
+    RecordedBox box;
+    box.play(session, recording, {10, 24, 40}, late);
+    ASSERT_GE(box.recordings.size(), 2U);
+    box.expect_live_rows(session);
+    const std::string meta =
+        box.folder.read(box.recordings[1].substr(box.recordings[1].rfind('/') + 1) + ".meta.csv");
+    EXPECT_NE(meta.find(",missing,"), std::string::npos);
+  }
 }
 
 /// Scenarios whose missions are recorded.
