@@ -21,10 +21,10 @@
 #include "board/box/event_recorder.h"
 #include "board/box/pose_service.h"
 #include "drivers/recording/file_recording_store.h"
-#include "drivers/replay/replay_clock.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
 #include "drivers/settings/session_settings.h"
+#include "hal/clock.h"
 #include "hal/frame_grabber.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/program.h"
@@ -69,6 +69,18 @@ class LateFrameGrabber final : public hal::FrameGrabber {
   int calls_ = 0;
 };
 
+/// A field that does not come is given up 10 ms after the one before it.
+class LateClock final : public hal::Clock {
+ public:
+  explicit LateClock(const drivers::ReplayFrameGrabber& grabber) : grabber_(&grabber) {}
+  [[nodiscard]] core::FieldTime now() const override {
+    return grabber_->field_time() + std::chrono::milliseconds(10);
+  }
+
+ private:
+  const drivers::ReplayFrameGrabber* grabber_;
+};
+
 /// A box that sees a recording's fields, hears its events, and records by itself.
 struct RecordedBox {
   support::TemporaryFolder folder;
@@ -87,7 +99,7 @@ struct RecordedBox {
     ASSERT_TRUE(grabber.start());
     ASSERT_TRUE(events.load_beside(recording, messages));
     LateFrameGrabber camera(grabber, late);
-    const drivers::ReplayClock clock(grabber);
+    const LateClock clock(grabber);
     board::ReplayScript script(file->settings.start, events, grabber);
     board::ScriptedRobotLink link(script);
     board::ScriptedOperatorStation station(script);
@@ -190,6 +202,7 @@ TEST(Recorder, FieldsThatNeverCameAreStepsOfTheReplay) {
     box.play(session, recording, {10, 24, 40}, late);
     ASSERT_GE(box.recordings.size(), 2U);
     box.expect_live_rows(session);
+    EXPECT_NE(box.folder.read("live.csv").rfind(",tracking,"), std::string::npos);
     const std::string meta =
         box.folder.read(box.recordings[1].substr(box.recordings[1].rfind('/') + 1) + ".meta.csv");
     EXPECT_NE(meta.find(",missing,"), std::string::npos);
