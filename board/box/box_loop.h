@@ -133,7 +133,7 @@ class BoxLoop {
   bool started_ = false;
   core::Parity parity_ = core::Parity::kEven;        ///< of the last field that came
   core::Parity first_parity_ = core::Parity::kEven;  ///< of a frame's first field
-  bool frame_half_missing_ = false;            ///< the next turn brings its other field
+  bool frame_half_missing_ = false;                  ///< the next turn brings its other field
   std::int64_t last_number_ = -1;
   std::int64_t number_shift_ = 0;  ///< from the grabber's numbers to ours: missing ones are counted
   OverlaySnapshot overlay_;

@@ -53,12 +53,13 @@ struct RecorderCounters {
 /// low priority call write_next() with its store again and again, some 20 times a second:
 ///
 ///     EventRecorder recorder;
-///     recorder.configure(settings, session_settings.camera, Session::state_bytes())
+///     recorder.configure(settings, session_settings.camera, Session::state_bytes());
 ///     services.recorder = &recorder;
 ///     while (!stop) { if (!recorder.write_next(store)) { wait 50 ms } }
 ///
-/// and request() from wherever a command comes. After the loop has stopped, flush() hands over what
-/// is going on and write_next() is called until it is false.
+/// where the store is drivers::FileRecordingStore, opened before (its open() and message() tell
+/// what went wrong), and request() from wherever a command comes. After the loop has stopped,
+/// flush() hands over what is going on and write_next() is called until it is false.
 ///
 /// Threads: take(), state_wanted(), put_state() and flush() by the loop's; write_next() by one
 /// other; request() and counters() by any.
