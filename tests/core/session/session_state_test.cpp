@@ -67,6 +67,10 @@ class Mission {
     move_and_ask();
     coast_and_be_lost();
     start_again();
+    see_pictures_again();
+    jump();
+    swap_fields();
+    miss_fields();
   }
 
   std::unique_ptr<SessionSettings> settings = std::make_unique<SessionSettings>();
@@ -129,6 +133,51 @@ class Mission {
     step(moved(kOverTube, 0.3));
   }
 
+  // At rest before a camera with noise, which is learnt: then equal pictures are old ones.
+  void see_pictures_again() {
+    say(clicks());
+    rest(4);
+    again_ = true;
+    rest(3);
+    again_ = false;
+    rest(3);
+  }
+
+  void jump() {
+    for (int i = 0; i < 3; ++i) {
+      step(moved(kOverTube, 9.0, 7.0));
+    }
+  }
+
+  // Each frame's first field was taken after its second.
+  void swap_fields() {
+    say(clicks());
+    rest(4);
+    for (int i = 0; i < 20; ++i) {
+      const bool first = number_ % 2 != 0;  // of the field to come
+      const double t = (i + (first ? 1 : -1)) * kFieldSpan_s;
+      step(moved(kOverTube, way_after(t, kPitch_mm, 100.0, 2000.0)));
+    }
+  }
+
+  // Two by their numbers, while fields come slowly; then many by the time.
+  void miss_fields() {
+    say(clicks());
+    rest(4);
+    span_ = kFieldSpan * 13 / 10;
+    rest(3);
+    skipped_ += 2;
+    rest(3);
+    now_ += 10 * kFieldSpan;
+    rest(1);
+  }
+
+  void rest(int fields) {
+    for (int i = 0; i < fields; ++i) {
+      step(kOverTube);
+    }
+  }
+
   [[nodiscard]] Start clicks() const {
     SessionSettings& clicked = *scratch_;
     clicked = *settings;
@@ -151,12 +200,16 @@ class Mission {
   void step(const ToolPlace& place) {
     auto taken = std::make_unique<Taken>();
     const Parity parity = number_ % 2 == 0 ? Parity::kOdd : Parity::kEven;
-    sheet_->draw(place, parity, static_cast<std::uint32_t>(number_), taken->frame);
+    if (again_) {
+      taken->frame = steps[steps.size() - 2]->frame;
+    } else {
+      sheet_->draw(place, parity, static_cast<std::uint32_t>(number_), taken->frame);
+    }
     Field& field = taken->input.field;
     field.number = ++number_;
     field.status = status_;
     field.parity = parity;
-    field.sequence = status_ == FieldStatus::kMissing ? 0 : 300 + number_;
+    field.sequence = status_ == FieldStatus::kMissing ? 0 : 300 + number_ + skipped_;
     field.mid_exposure = now_;
     field.lamp_permille = 700;
     if (status_ != FieldStatus::kMissing) {
@@ -167,14 +220,17 @@ class Mission {
     steps.push_back(std::move(taken));
     events_.clear();
     status_ = FieldStatus::kGood;
-    now_ += kFieldSpan;
+    now_ += span_;
   }
 
   std::unique_ptr<SyntheticSheet> sheet_;
   std::unique_ptr<SessionSettings> scratch_ = std::make_unique<SessionSettings>();
   EventList events_;
   FieldStatus status_ = FieldStatus::kGood;
+  bool again_ = false;  ///< fields show the last picture of their parity
   FieldTime now_{1'000'000'000};
+  FieldTime span_ = kFieldSpan;
+  std::int64_t skipped_ = 0;  ///< sequence numbers
   std::int64_t number_ = 39;
   std::int64_t id_ = 0;
 };
@@ -232,16 +288,24 @@ TYPED_TEST(SessionState, GoesOnFromEveryStepToTheSameBytes) {
   std::vector<std::uint64_t> outputs;
   std::vector<std::vector<std::byte>> states;
   std::vector<int> seen(4);
+  std::vector<Reason> losses;
   const auto session = this->fresh();
   for (const auto& step : steps) {
     states.push_back(this->saved(*session));
     session->step(step->input, *output);
     outputs.push_back(digest_of(*output));
-    ++seen[static_cast<std::size_t>(output->sighting.state)];
+    const Sighting& sighting = output->sighting;
+    ++seen[static_cast<std::size_t>(sighting.state)];
+    if (sighting.state == TrackState::kLost &&
+        (losses.empty() || losses.back() != sighting.reason)) {
+      losses.push_back(sighting.reason);
+    }
   }
   for (const int fields : seen) {
     EXPECT_GT(fields, 1) << "a mission through all states";
   }
+  EXPECT_EQ(losses,
+            (std::vector{Reason::kCoasted, Reason::kNoTubes, Reason::kFieldOrder, Reason::kGap}));
 
   for (std::size_t from = 0; from < steps.size(); ++from) {
     const auto restored = this->fresh();
