@@ -72,7 +72,7 @@ class Session {
 
   /// Writes down what the next steps depend on besides their inputs and the settings: a session of
   /// the same settings that restores it goes on as this one would, to the byte. Gives the number of
-  /// bytes written, the same on every machine; some 70 KB once the recent fields are filled, in
+  /// bytes written, the same on every machine; some 50 KB once the recent fields are filled, in
   /// some 50 us. Between two steps; no heap.
   ///
   /// The block says its length, its version, the arithmetic, the shape of what it holds, a digest
