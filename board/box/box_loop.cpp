@@ -12,6 +12,16 @@ using core::Unexpected;
 /// Garbled messages that one turn looks past: a line of noise must not keep the field waiting.
 constexpr std::int32_t kMostGarbled = core::kMaxEventsPerField;
 
+/// That of a frame's other field.
+constexpr core::Parity other(core::Parity parity) {
+  switch (parity) {
+    case core::Parity::kEven: return core::Parity::kOdd;
+    case core::Parity::kOdd: return core::Parity::kEven;
+    case core::Parity::kProgressive: break;
+  }
+  return core::Parity::kProgressive;
+}
+
 }  // namespace
 
 template <core::Scalar S, typename Margin>
@@ -39,6 +49,8 @@ Result<void> BoxLoop<S, Margin>::start() {
   started_ = true;
   if (!started) {
     stop();
+  } else if (services_.recorder != nullptr) {
+    keep_state();
   }
   return started;
 }
@@ -90,6 +102,11 @@ void BoxLoop<S, Margin>::turn_without_field() {
   // Files count two numbers a frame, of which a progressive one uses the first.
   const std::int64_t numbers = progressive ? 2 : 1;
   field.number = last_number_ + (last_number_ < 0 ? 1 : numbers);
+  if (!progressive) {
+    field.parity = field.number % 2 == 0 ? first_parity_ : other(first_parity_);
+  } else {
+    field.parity = core::Parity::kProgressive;
+  }
   number_shift_ += numbers;
   frame_half_missing_ = !progressive && !frame_half_missing_;
   ++counters_.missing;
@@ -106,6 +123,7 @@ void BoxLoop<S, Margin>::number(core::Field& field) {
   }
   field.number += number_shift_;
   parity_ = field.parity;
+  first_parity_ = field.number % 2 == 0 ? parity_ : other(parity_);
 }
 
 template <core::Scalar S, typename Margin>
@@ -123,6 +141,7 @@ void BoxLoop<S, Margin>::take(const core::Field& field) {
   set_lamp();
   serve_poses();
   publish();
+  record();
 }
 
 /// The events since the last field in time order, as many as a step takes; the others wait where
@@ -247,6 +266,24 @@ void BoxLoop<S, Margin>::publish() {
   if (services_.overlay != nullptr) {
     describe<S>(*session_, output_, input_.field.number, services_.estimates, overlay_);
     services_.overlay->publish(overlay_);
+  }
+}
+
+/// Last of all, when everybody has his answer.
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::record() {
+  if (services_.recorder != nullptr) {
+    services_.recorder->take(input_, output_);
+    keep_state();
+  }
+}
+
+/// Before the next step, where the recorder wants to begin a segment with it.
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::keep_state() {
+  const std::span<std::byte> into = services_.recorder->state_wanted();
+  if (!into.empty()) {
+    services_.recorder->put_state(session_->save(into).value_or(0));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "board/box/event_recorder.h"
 #include "board/box/frame_view.h"
 #include "board/box/overlay_snapshot.h"
 #include "board/box/pose_desk.h"
@@ -37,7 +38,8 @@ struct BoxServices {
   PoseDesk* poses = nullptr;  ///< null: pose results come as events, or never
   FrameView* view = nullptr;  ///< keeps the two last fields for display
   core::Snapshot<OverlaySnapshot>* overlay = nullptr;  ///< what the marks are drawn from
-  bool estimates = false;  ///< with the places where tubes are expected in it
+  bool estimates = false;             ///< with the places where tubes are expected in it
+  EventRecorder* recorder = nullptr;  ///< keeps the last fields for a replay
 };
 
 /// What went wrong on one line so far.
@@ -114,6 +116,8 @@ class BoxLoop {
   void set_lamp();
   void serve_poses();
   void publish();
+  void record();
+  void keep_state();
 
   core::session::Session<S, Margin>* session_;
   BoxPorts ports_;
@@ -127,8 +131,9 @@ class BoxLoop {
   std::int32_t garbled_now_ = 0;                             ///< in this turn
 
   bool started_ = false;
-  core::Parity parity_ = core::Parity::kEven;  ///< of the last field that came
-  bool frame_half_missing_ = false;            ///< the next turn brings its other field
+  core::Parity parity_ = core::Parity::kEven;        ///< of the last field that came
+  core::Parity first_parity_ = core::Parity::kEven;  ///< of a frame's first field
+  bool frame_half_missing_ = false;                  ///< the next turn brings its other field
   std::int64_t last_number_ = -1;
   std::int64_t number_shift_ = 0;  ///< from the grabber's numbers to ours: missing ones are counted
   OverlaySnapshot overlay_;

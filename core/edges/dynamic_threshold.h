@@ -31,6 +31,13 @@ class DynamicThreshold {
   void halve() { value_ = std::max(value_ / 2, kLeast); }
   [[nodiscard]] bool at_least() const { return value_ <= kLeast; }
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [value] = self;
+    stream.number(value, kLeast, 1 << 20);  // the settings' first value may be above kMost
+  }
+
  private:
   std::int32_t value_ = 200;
 };

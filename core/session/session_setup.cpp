@@ -1,6 +1,7 @@
 // From settings to the numbers of the path; apart from step() because it computes in double.
 
 #include "core/session/session.h"
+#include "core/session/settings_digest.h"
 #include "core/tracking/tracking_setup.h"
 
 namespace tubesight::core::session {
@@ -13,6 +14,7 @@ Result<void> Session<S, Margin>::configure(const SessionSettings& settings) {
   claims_.configure(
       verification::make_claim_limits(settings.verification, settings.motion, step_mm));
   starts_.configure();
+  settings_digest_ = settings_digest(settings);
   return map_.assign(settings.tubesheet);
 }
 

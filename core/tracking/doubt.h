@@ -37,6 +37,15 @@ class Doubt {
   /// Why; valid while it lasts.
   [[nodiscard]] Reason reason() const { return reason_; }
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [contradictions, to_agree, why] = self;
+    stream.number(contradictions, 0, 1 << 30);
+    stream.number(to_agree, 0, kMustAgree);
+    stream.choice(why, Reason::kNoField);
+  }
+
  private:
   static constexpr std::int32_t kMostContradictions = 2;
   static constexpr std::int32_t kMustAgree = 2;

@@ -47,6 +47,21 @@ class FieldClock {
   /// The shortest time from field to field; 0: not known.
   [[nodiscard]] std::int64_t usual_span_ns() const { return usual_span_ns_; }
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [good_time, good_sequence, seen_time, seen_sequence, usual_numbers, per_sequence,
+           usual_span] = self;
+    constexpr std::int64_t kMostCounted = (std::int64_t{1} << 62) - 1;  // differences fit
+    stream(good_time);
+    stream.number(good_sequence, -kMostCounted, kMostCounted);
+    stream(seen_time);
+    stream.number(seen_sequence, -kMostCounted, kMostCounted);
+    stream.number(usual_numbers, 0, kMostCounted);
+    stream.number(per_sequence, -kMostCounted, kMostCounted);
+    stream.number(usual_span, -kMostCounted, kMostCounted);
+  }
+
  private:
   [[nodiscard]] bool misses_fields(const Field& field);
   [[nodiscard]] FieldTime since_good(const Field& field);

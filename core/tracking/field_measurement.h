@@ -35,6 +35,14 @@ struct FindingCount {
 struct LightLevels {
   std::int32_t region_threshold = 60;  ///< a cross-hair's mean above this is sheet
   edges::DynamicThreshold edge_threshold{};
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [region, edge] = self;
+    stream.number(region, 0, 1 << 16);
+    stream(edge);
+  }
 };
 
 /// A place of a recognised plug in this field.
@@ -58,6 +66,13 @@ struct FieldRecord {
   void begin_field() {
     plugs_seen.clear();
     measured.clear();
+  }
+
+  /// The members of the state; see core/base/state_stream.h. The last two are of one field.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [levels, plug_memory, seen, tubes] = self;
+    stream(levels, plug_memory);
   }
 };
 

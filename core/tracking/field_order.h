@@ -47,6 +47,22 @@ class FieldOrder {
   /// order. `fastest_change` in 1/1024 mm a field and field: the greatest acceleration.
   [[nodiscard]] bool explains(std::int32_t fastest_change) const;
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [seen, count, verdict, moved, step_step, zigzag_step, zigzag_zigzag, way_x, way_y] = self;
+    stream(seen);
+    stream.number(count, 0, kPlaces);
+    stream.choice(verdict, Verdict::kWrong);
+    stream.number(moved, 0, 1 << 20);
+    constexpr std::int64_t kMostSum = std::int64_t{1} << 60;
+    stream.number(step_step, -kMostSum, kMostSum);
+    stream.number(zigzag_step, -kMostSum, kMostSum);
+    stream.number(zigzag_zigzag, -kMostSum, kMostSum);
+    stream.number(way_x, -kMostSum, kMostSum);
+    stream.number(way_y, -kMostSum, kMostSum);
+  }
+
  private:
   enum class Verdict : std::uint8_t { kOpen, kRight, kWrong };
   static constexpr std::int32_t kPlaces = 8;
@@ -54,6 +70,16 @@ class FieldOrder {
   struct Seen {
     ToolPlaceQ10 place{};
     bool first = false;
+
+    template <typename Self, typename Stream>
+    static void transfer(Self& self, Stream& stream) {
+      auto& [at, is_first] = self;
+      auto& [x, y] = at;
+      constexpr std::int32_t kFarthest = 1 << 28;  // differences of differences fit
+      stream.number(x, -kFarthest, kFarthest);
+      stream.number(y, -kFarthest, kFarthest);
+      stream(is_first);
+    }
   };
 
   void weigh(const Seen& into, const Seen& within, const Seen& from);

@@ -46,6 +46,13 @@ class FieldOrderWatch {
   /// time from field to field.
   [[nodiscard]] bool explains(std::int64_t field_ns) const;
 
+  /// The members of the state; see core/base/state_stream.h. The model is the settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [model, order, aside, aside_known] = self;
+    stream(order, aside, aside_known);
+  }
+
  private:
   void take(const Field& field, const Vector2<Mm<S>>& tool);
   [[nodiscard]] bool has_fields() const { return model_->first_field != Parity::kProgressive; }

@@ -23,6 +23,13 @@ template <Scalar S>
 struct Place {
   SheetPose<S> pose{};
   ToolPoint<S> tool{};
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [sheet, tool_at] = self;
+    stream(sheet, tool_at);
+  }
 };
 
 /// The tube nearest to the tool.

@@ -23,6 +23,13 @@ struct Motion {
   Vector2<Mm<S>> velocity_mm_s{};  ///< of the tool point over the sheet, sheet axes
   Mm<S> approach_mm_s{};           ///< of the height
   Vector3<Mm<S>> turn_rad_s{};     ///< of the sheet before the camera, camera axes
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [is_known, interval, velocity, approach, turn] = self;
+    stream(is_known, interval, velocity, approach, turn);
+  }
 };
 
 /// Whether the tool stands still as far as a picture tells: under 3 mm/s, a twentieth of a

@@ -25,6 +25,15 @@ class OldPictureWatch {
   /// The field looked at last was believed; `at_rest`: it shows the tool standing still.
   void believe(bool at_rest);
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [memory, likeness, rested, noisy] = self;
+    stream(memory, likeness);
+    stream.number(rested, 0, 1 << 30);
+    stream(noisy);
+  }
+
  private:
   PictureMemory memory_{};
   PictureLikeness likeness_{};  ///< of the last field that was looked at

@@ -11,6 +11,14 @@ namespace tubesight::core::tracking {
 struct PictureLikeness {
   std::int32_t compared = 0;  ///< lines looked at that show grey, where noise shows
   std::int32_t equal = 0;     ///< of those, the same as before
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [lines, same] = self;
+    stream.number(lines, 0, 1 << 16);
+    stream.number(same, 0, 1 << 16);
+  }
 };
 
 /// Remembers the last picture of each parity, to recognise one that is delivered again.
@@ -25,6 +33,13 @@ class PictureMemory {
   static constexpr std::int32_t kLines = 12;
 
   void clear() { *this = {}; }
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [sums] = self;
+    stream(sums);
+  }
 
   /// Compares a picture with the last of its parity and puts it in its place. The window
   /// lies in the picture.

@@ -34,6 +34,15 @@ struct PoseFit {
   bool solved = false;
   std::int32_t used = 0;  ///< tube-ends that agree with the plane
   Px<S> rms_px{};         ///< of their distances from the fitted places
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [is_solved, tubes, rms] = self;
+    stream(is_solved);
+    stream.number(tubes, 0, kMaxTubesInView);
+    stream(rms);
+  }
 };
 
 /// Fits the pose to all measured tube-ends by weighted least squares on the full projection,

@@ -26,6 +26,13 @@ class PrimaryTube {
   [[nodiscard]] TubeAddress address() const { return address_; }
   [[nodiscard]] bool is(TubeAddress address) const { return known_ && address == address_; }
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [is_known, tube] = self;
+    stream(is_known, tube);
+  }
+
  private:
   bool known_ = false;
   TubeAddress address_{};

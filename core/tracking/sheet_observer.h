@@ -38,6 +38,16 @@ struct Observation {
   ToolPoint<S> tool{};
   Mm<S> deviation_mm{};          ///< of the tool on the sheet, one standard deviation
   Mm<S> picture_deviation_mm{};  ///< the picture's share of it
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [is_fitted, why_not, refuted, fitting, sheet, tool_at, deviation, picture_deviation] =
+        self;
+    stream(is_fitted);
+    stream.choice(why_not, Reason::kNoField);
+    stream(refuted, fitting, sheet, tool_at, deviation, picture_deviation);
+  }
 };
 
 /// What the fit, the calibration and the sheet leave uncertain even on a perfect picture, mm.
@@ -74,6 +84,14 @@ class SheetObserver {
 
   /// Tube-ends and plugs of the field looked at last.
   [[nodiscard]] const FieldRecord<S>& record() const { return record_; }
+
+  /// The members of the state; see core/base/state_stream.h. Model and map are the settings', and
+  /// the last two are written in each field before they are read.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [model, map, record, candidates, equations] = self;
+    stream(record);
+  }
 
  private:
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,

@@ -26,6 +26,13 @@ struct SheetPose {
     return {component(x_axis.x, y_axis.x), component(x_axis.y, y_axis.y),
             component(x_axis.z, y_axis.z)};
   }
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [anchor_tube, x, y, z, place] = self;
+    stream(anchor_tube, x, y, z, place);
+  }
 };
 
 /// Turns the pose by the small rotation vector `turn_rad` (camera frame, about the anchor's centre)

@@ -20,6 +20,13 @@ struct StartClick {
   TubeAddress address{};
   std::int32_t u_q16 = 0;
   std::int32_t v_q16 = 0;
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [tube, u, v] = self;
+    stream(tube, u, v);
+  }
 };
 
 using StartClickList = StaticVector<StartClick, kMaxStartPoints>;

@@ -45,6 +45,17 @@ class StillPicture {
   /// empty when that one shows nothing to compare.
   [[nodiscard]] const std::int64_t* since() const { return resting_ && told_ ? &since_ : nullptr; }
 
+  /// The members of the state; see core/base/state_stream.h. The setup is the settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [setup, reference, last, compared, last_time, since_field, sequence, noisy, resting,
+           told] = self;
+    stream(reference, last, compared, last_time);
+    stream.number(since_field, -1, std::int64_t{1} << 62);
+    stream.number(sequence, -(std::int64_t{1} << 62), std::int64_t{1} << 62);
+    stream(noisy, resting, told);
+  }
+
  private:
   static constexpr std::int32_t kLines = 16;
   static constexpr std::int32_t kBlocks = 24;

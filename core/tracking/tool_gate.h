@@ -62,6 +62,14 @@ class ToolGate {
     return quotient<Mm<S>>(to_edge_mm - strayed_mm_, predicted_deviation_mm_);
   }
 
+  /// The members of the state; see core/base/state_stream.h. The model is the settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [model, deviation, picture_deviation, predicted_deviation, reach, undisputed, strayed] =
+        self;
+    stream(deviation, picture_deviation, predicted_deviation, reach, undisputed, strayed);
+  }
+
  private:
   const TrackingModel<S>* model_;
   Mm<S> deviation_mm_{};            ///< of the tool in the last good field

@@ -16,6 +16,13 @@ struct ToolPoint {
   Vector2<Mm<S>> local{};  ///< on the sheet, mm from the anchor's centre
   Vector3<Mm<S>> point{};  ///< the same in the camera frame
   Mm<S> height_mm{};       ///< distance of the tip from the plane of the tube-ends
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [on_sheet, in_camera, height] = self;
+    stream(on_sheet, in_camera, height);
+  }
 };
 
 /// Intersects the axis with the plane: Eq. 6.17 to 6.21, for a sheet that may lean against the

@@ -59,6 +59,19 @@ class Tracker {
   /// tracking or degraded.
   [[nodiscard]] const SheetPose<S>& shown() const { return shown_.pose; }
 
+  /// The members of the state; see core/base/state_stream.h. Model and map are the settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [model, map, state, reason, clicks, start_refusal, good, motion, shown, judged, primary,
+           clock, gate, doubts, old_pictures, order, observer] = self;
+    stream.choice(state, TrackState::kLost);
+    stream.choice(reason, Reason::kNoField);
+    stream(clicks);
+    stream.choice(start_refusal, StartRefusal::kSuperseded);
+    stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order,
+           observer);
+  }
+
  private:
   [[nodiscard]] bool knows_place() const {
     return state_ == TrackState::kTracking || state_ == TrackState::kDegraded;

@@ -54,6 +54,13 @@ class ClaimJudge {
   [[nodiscard]] std::optional<ClaimReply> judge(const Claim& claim, FieldTime at,
                                                 const RecentFields<S>& recent) const;
 
+  /// The members of the state; see core/base/state_stream.h. The limits are the settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [limits, waiting] = self;
+    stream(waiting);
+  }
+
  private:
   struct Waiting {
     std::int64_t id = 0;
@@ -61,6 +68,16 @@ class ClaimJudge {
     FieldTime at{0};
     Claim claim;
     std::int32_t fields = 0;  ///< for how many it has waited
+
+    template <typename Self, typename Stream>
+    static void transfer(Self& self, Stream& stream) {
+      auto& [name, sender, instant, content, waited] = self;
+      auto& [tube] = content;
+      stream(name);
+      stream.choice(sender, EventOrigin::kOperator);
+      stream(instant, tube);
+      stream.number(waited, 0, 1 << 30);
+    }
   };
 
   [[nodiscard]] ClaimReply judge_by(const Claim& claim, FieldTime at,

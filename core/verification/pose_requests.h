@@ -32,6 +32,13 @@ class PoseRequests {
   /// Answers the result of the request that was taken.
   [[nodiscard]] PoseReply judge(const PoseResult& pose, const Sighting& sighting);
 
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [awaited] = self;
+    stream.number(awaited, 0, kPoseRequestLasts);
+  }
+
  private:
   std::int32_t awaited_ = 0;  ///< fields that the pending request has left
 };

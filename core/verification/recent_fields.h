@@ -15,6 +15,13 @@ template <Scalar S>
 struct RecentField {
   Sighting sighting;
   tracking::SheetPose<S> pose{};  ///< valid while tracking or degraded
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [seen, sheet] = self;
+    stream(seen, sheet);
+  }
 };
 
 /// The sightings of the last fields, so that a claim, a pick or a start that speaks of a field gone
@@ -75,6 +82,21 @@ class RecentFields {
 
   [[nodiscard]] static constexpr FieldTime distance(FieldTime a, FieldTime b) {
     return a > b ? a - b : b - a;
+  }
+
+  /// The members of the state; see core/base/state_stream.h. Of the ring what is filled.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [fields, count, newest_time, came, last_time] = self;
+    stream.number(count, 0, std::int64_t{1} << 62);
+    stream(newest_time, came, last_time);
+    if constexpr (Stream::kShape) {
+      stream(fields[0]);
+    } else {
+      for (std::int64_t i = self.first(); i < count; ++i) {
+        stream(fields[slot(i)]);
+      }
+    }
   }
 
  private:

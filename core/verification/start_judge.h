@@ -38,6 +38,20 @@ class StartJudge {
   /// Takes what the tracker made of the field looked at last.
   void follow(const RecentField<S>& field);
 
+  /// The members of the state; see core/base/state_stream.h. Model and longest gap are the
+  /// settings'.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [model, picture, rest_pose, rest_since, tracked_rest, by_track, in_time, longest_gap,
+           last_time, last_sequence, present] = self;
+    constexpr std::int64_t kMostCounted = std::int64_t{1} << 62;  // differences fit
+    stream(picture, rest_pose);
+    stream.number(rest_since, -1, kMostCounted);
+    stream(tracked_rest, by_track, in_time, last_time);
+    stream.number(last_sequence, -kMostCounted, kMostCounted);
+    stream.number(present, -1, kMostCounted);
+  }
+
  private:
   [[nodiscard]] bool has_moved(const tracking::SheetPose<S>& pose) const;
 

@@ -56,7 +56,6 @@ bool parse_px(std::string_view text, double& px) {
 }
 
 bool parse_start(std::string_view text, Event& event) {
-  constexpr std::int32_t kFewest = 3;
   core::Start start;
   event.origin = EventOrigin::kOperator;
   while (!text.empty()) {
@@ -69,7 +68,7 @@ bool parse_start(std::string_view text, Event& event) {
     }
   }
   event.content = start;
-  return start.tubes.size() >= kFewest;
+  return true;
 }
 
 bool parse_pose_reason(std::string_view text, core::PoseReason& reason) {
@@ -176,11 +175,13 @@ struct AppendedColumns {
   explicit AppendedColumns(const CsvReader& csv)
       : id(csv.find_column("id")),
         seen_field(csv.find_column("seen_field")),
-        confirm(csv.find_column("confirm")) {}
+        confirm(csv.find_column("confirm")),
+        origin(csv.find_column("origin")) {}
 
   std::optional<std::size_t> id;
   std::optional<std::size_t> seen_field;
   std::optional<std::size_t> confirm;
+  std::optional<std::size_t> origin;
 };
 
 /// Reads one row; each cell that is wrong gives a message.
@@ -200,15 +201,18 @@ class RowReader {
       return false;
     }
     const std::string& values = csv_.cells()[3];
-    if (!kind->parse(values, event)) {
+    // A box's recorder names the origin, and writes what came, sensible or not.
+    const std::string* const origin = filled(appended.origin);
+    if (!kind->parse(values, event) || (origin == nullptr && has_few_clicks(event))) {
       complain("values", values, std::string(kind->values) + " for " + word);
     }
     if (const std::string* const cell = filled(appended.id);
         cell != nullptr && !parse_whole(*cell, event.id)) {
       complain("id", *cell, "a whole number, or nothing");
     }
-    read_seen_field(filled(appended.seen_field), field, word, event);
+    read_seen_field(filled(appended.seen_field), origin != nullptr, field, word, event);
     read_confirm(filled(appended.confirm), word, event);
+    read_origin(origin, event);
     return good_;
   }
 
@@ -240,8 +244,24 @@ class RowReader {
     }
   }
 
-  void read_seen_field(const std::string* cell, std::int64_t field, const std::string& word,
-                       Event& event) {
+  static bool has_few_clicks(const Event& event) {
+    constexpr std::int32_t kFewest = 3;
+    const auto* const start = core::content_if<core::Start>(event);
+    return start != nullptr && start->tubes.size() < kFewest;
+  }
+
+  void read_origin(const std::string* cell, Event& event) {
+    if (cell == nullptr) {
+      return;
+    }
+    if (*cell != "robot" && *cell != "operator") {
+      complain("origin", *cell, "robot, operator or nothing");
+    }
+    event.origin = *cell == "robot" ? EventOrigin::kRobot : EventOrigin::kOperator;
+  }
+
+  void read_seen_field(const std::string* cell, bool recorded, std::int64_t field,
+                       const std::string& word, Event& event) {
     if (cell == nullptr) {
       return;
     }
@@ -250,7 +270,7 @@ class RowReader {
     auto* const pick = core::content_if<core::Pick>(event);
     if (start == nullptr && pick == nullptr) {
       complain("seen_field", *cell, "nothing for " + word);
-    } else if (!parse_whole(*cell, seen) || seen < 0 || seen > field) {
+    } else if (!parse_whole(*cell, seen) || (!recorded && (seen < 0 || seen > field))) {
       complain("seen_field", *cell, "a whole number from 0 to the row's field, or nothing");
     } else {
       (start != nullptr ? start->seen_field : pick->seen_field) = seen;

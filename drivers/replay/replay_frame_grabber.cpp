@@ -79,6 +79,7 @@ Result<void> ReplayFrameGrabber::start() {
   field_number_ = -1;
   field_time_ = core::FieldTime(0);
   sequence_ = 0;
+  next_row_ = 0;
   TUBESIGHT_TRY(open());
   TUBESIGHT_TRY(check_header());
   TUBESIGHT_TRY(check_rate_or_meta());
@@ -90,6 +91,7 @@ Result<void> ReplayFrameGrabber::start() {
                : fail(first.error(), reader_.message());
   }
   frame_ready_ = true;
+  row_frame_ = by_rows_ ? meta_.rows().front().field / 2 : 0;
   started_ = true;
   return {};
 }
@@ -121,7 +123,17 @@ Result<void> ReplayFrameGrabber::open() {
   if (!opened) {
     return fail(opened.error(), reader_.message());
   }
-  return has_meta_ ? meta_.parse(meta_text, meta_name_, messages_) : Result<void>();
+  if (!has_meta_) {
+    return by_rows_ ? fail(Error::kInvalidArgument,
+                           meta_name_ + ": is missing, expected it beside what a box recorded")
+                    : Result<void>();
+  }
+  TUBESIGHT_TRY(
+      meta_.parse(meta_text, meta_name_, messages_,
+                  by_rows_ ? ReplayMeta::Writer::kRecorder : ReplayMeta::Writer::kAnybody));
+  return by_rows_ && meta_.rows().empty()
+             ? fail(Error::kInvalidArgument, meta_name_ + ": has no rows, expected one a field")
+             : Result<void>();
 }
 
 Result<void> ReplayFrameGrabber::check_header() {
@@ -209,6 +221,37 @@ Result<void> ReplayFrameGrabber::describe(std::int64_t number, core::Field& fiel
   return {};
 }
 
+/// Frames one after the other, each field of them.
+Result<std::int64_t> ReplayFrameGrabber::next_number() {
+  if (!frame_ready_) {
+    TUBESIGHT_TRY(next_frame());
+  }
+  const std::int64_t number = 2 * (reader_.frames_read() - 1) + (later_field_ ? 1 : 0);
+  return number;
+}
+
+/// The rows one after the other, each with its frame. That a number has no row is no mistake: the
+/// box made no step of it.
+Result<std::int64_t> ReplayFrameGrabber::next_row_number() {
+  const auto& rows = meta_.rows();
+  if (next_row_ == rows.size()) {
+    TUBESIGHT_TRY(next_frame());
+    return Unexpected(
+        fail(Error::kInvalidArgument, meta_name_ + ": no row for the last frames of " + recording_)
+            .error());
+  }
+  const std::int64_t number = rows[next_row_].field;
+  if (number / 2 != row_frame_) {
+    if (const auto read = next_frame(); !read) {
+      return Unexpected(read.error());
+    }
+    row_frame_ = number / 2;
+  }
+  later_field_ = number % 2 == 1;
+  ++next_row_;
+  return number;
+}
+
 Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) {
   if (!started_ || lent_) {
     return Unexpected(Error::kNotReady);
@@ -216,10 +259,11 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   if (failed_) {
     return Unexpected(failure_);
   }
-  if (!frame_ready_) {
-    TUBESIGHT_TRY(next_frame());
+  const auto next = by_rows_ ? next_row_number() : next_number();
+  if (!next) {
+    return Unexpected(next.error());
   }
-  const std::int64_t number = 2 * (reader_.frames_read() - 1) + (later_field_ ? 1 : 0);
+  const std::int64_t number = *next;
   core::Field field;
   field.parity = parity_of(camera_.scan, later_field_);
   field.pixels = core::field_of(frame(), field.parity);
@@ -230,8 +274,10 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   field_number_ = number;
   field_time_ = field.mid_exposure;
   ++sequence_;
-  frame_ready_ = interlaced() && !later_field_;
-  later_field_ = frame_ready_;
+  if (!by_rows_) {
+    frame_ready_ = interlaced() && !later_field_;
+    later_field_ = frame_ready_;
+  }
   lent_ = true;
   return hal::FieldLease(*this, 0, field);
 }

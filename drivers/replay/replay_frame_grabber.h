@@ -34,6 +34,12 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   ReplayFrameGrabber(const core::CameraSettings& camera, std::unique_ptr<ByteSource> source,
                      std::string name, std::string meta_text);
 
+  /// Takes the recording for one of a box's recorder, which begins in the middle of a mission: the
+  /// rows of its meta file are the steps, with the numbers that the box counted, each of the frame
+  /// with half that number; the recording has the frames that rows name. There must be a meta file.
+  /// Call before start().
+  void follow_rows() { by_rows_ = true; }
+
   /// Opens recording and meta file and reads the first frame. Beside the errors of the interface:
   /// kInvalidArgument the file is no recording, disagrees with `camera`, has no frame or no rate,
   /// or its meta file is wrong; kDataLoss it is cut short within its first frame.
@@ -82,6 +88,8 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   core::Result<void> next_frame();
   core::Result<void> check_meta_used_up();
   core::Result<void> describe(std::int64_t number, core::Field& field);
+  core::Result<std::int64_t> next_number();
+  core::Result<std::int64_t> next_row_number();
 
   core::CameraSettings camera_;
   std::string recording_;
@@ -98,6 +106,9 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   std::int64_t field_number_ = -1;
   core::FieldTime field_time_{0};
   std::int64_t sequence_ = 0;
+  bool by_rows_ = false;
+  std::size_t next_row_ = 0;    ///< of the meta file, when it is followed
+  std::int64_t row_frame_ = 0;  ///< frame in pixels_, by the rows' numbers
   bool started_ = false;
   bool lent_ = false;
   bool frame_ready_ = false;  ///< the frame in pixels_ has fields that were not delivered

@@ -25,11 +25,17 @@ struct FieldMeta {
 /// The rows of a `NAME.meta.csv`, in the order of their fields.
 class ReplayMeta {
  public:
+  /// Who wrote the file.
+  enum class Writer : std::uint8_t {
+    kAnybody,   ///< time and sequence must grow from row to row
+    kRecorder,  ///< they are what a box was given, and it may have been given anything
+  };
+
   /// Reads the text of a meta file; `name` stands before every message. All rows are checked, each
-  /// by itself and whether time and sequence grow from one to the next, and there is a message for
-  /// each that is wrong (the first 20). Errors: kInvalidArgument.
+  /// by itself and against the one before, and there is a message for each that is wrong (the first
+  /// 20). Errors: kInvalidArgument.
   [[nodiscard]] core::Result<void> parse(std::string_view text, const std::string& name,
-                                         Messages& messages);
+                                         Messages& messages, Writer writer = Writer::kAnybody);
 
   /// The rows, by growing field number.
   [[nodiscard]] const std::vector<FieldMeta>& rows() const { return rows_; }

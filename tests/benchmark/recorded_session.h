@@ -58,6 +58,7 @@ class SessionRun {
   void step() { session_->step(*input_, *output_); }
 
   [[nodiscard]] const core::session::Output& output() const { return *output_; }
+  [[nodiscard]] const core::session::Session<S>& session() const { return *session_; }
 
  private:
   std::unique_ptr<core::session::Session<S>> session_ =

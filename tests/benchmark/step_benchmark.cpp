@@ -1,11 +1,15 @@
-// step_benchmark [FOLDER] [--benchmark_...]: time a field and a tube-end, by kind of arithmetic.
+// step_benchmark [FOLDER] [--benchmark_...]: time a field and a tube-end, by kind of arithmetic,
+// and to save the state.
 //
 // The recording lies in memory; the start's field is not timed. Without FOLDER the recording that
 // ships with the repository is used.
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
@@ -46,6 +50,35 @@ void track_recording(benchmark::State& state, const RecordedSession& recording) 
   state.counters["time_per_tube"] = {static_cast<double>(tubes), time_each};
 }
 
+/// What a box's recorder costs the tracking thread now and then: the session's state in bytes.
+void save_state(benchmark::State& state, const RecordedSession& recording) {
+  SessionRun<core::FixedPoint> run;
+  if (!run.configure(recording.settings())) {
+    state.SkipWithError("the settings are refused");
+    return;
+  }
+  for (const core::Field& field : recording.fields()) {
+    run.give(field);
+    run.step();
+  }
+  // Until all that it remembers of fields is filled.
+  core::Field missing = recording.fields().back();
+  missing.status = core::FieldStatus::kMissing;
+  for (int i = 0; i < 300; ++i) {
+    missing.mid_exposure += std::chrono::milliseconds(16);
+    ++missing.number;
+    run.give(missing);
+    run.step();
+  }
+  std::vector<std::byte> bytes(core::session::Session<core::FixedPoint>::state_bytes());
+  std::size_t used = 0;
+  for (auto iteration : state) {
+    used = run.session().save(bytes).value_or(0);
+    benchmark::DoNotOptimize(bytes.data());
+  }
+  state.counters["bytes"] = static_cast<double>(used);
+}
+
 template <core::Scalar S>
 void add(const char* name, const RecordedSession& recording) {
   benchmark::RegisterBenchmark(name, [&recording](benchmark::State& state) {
@@ -69,6 +102,9 @@ int run(int count, char** arguments) {
   add<core::FixedPoint>("recording/fixed", recording);
   add<float>("recording/float", recording);
   add<double>("recording/double", recording);
+  benchmark::RegisterBenchmark("save/fixed", [](benchmark::State& state) {
+    save_state(state, recording);
+  })->Unit(benchmark::kMicrosecond);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }

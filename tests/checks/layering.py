@@ -44,6 +44,7 @@ MAY_INCLUDE = {
     # Drivers do not know each other, with one exception: drivers/files holds what all that read files
     # share (places and messages), and is the library that a recording as a frame grabber stands on.
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
+    "drivers/recording": BASE + ["hal", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
     "drivers/modbus": BASE + ["hal"],
     "drivers/simulated": BASE + ["hal", "core/tubesheet", "core/rendering", "core/kinematics"],

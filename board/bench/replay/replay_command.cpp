@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -54,19 +55,33 @@ class Replay {
  private:
   bool open_inputs() {
     drivers::Messages messages;
-    bool good = static_cast<bool>(drivers::load_session_settings(
-        options_.session, drivers::kReplayNeeds, *session_file_, messages));
+    bool good = read_state(messages);
+    drivers::NeededTables needed = drivers::kReplayNeeds;
+    needed.start = !has_state_;  // a box may have been started by its robot
+    good =
+        drivers::load_session_settings(options_.session, needed, *session_file_, messages) && good;
     // A recording can be judged only against sound settings, its events without any.
     if (good) {
       grabber_ = std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera,
                                                                options_.recording);
+      if (has_state_) {
+        grabber_->follow_rows();
+      }
       good = static_cast<bool>(grabber_->start());
       messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
     }
-    good = good && fields_come_often_enough(messages);
+    good = good && (has_state_ || fields_come_often_enough(messages));
     good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
     tell(messages);
     return good;
+  }
+
+  /// With a state beside it, the recording is of a box's recorder.
+  bool read_state(drivers::Messages& messages) {
+    const auto present = drivers::read_companion(
+        drivers::companion_path(options_.recording, ".state"), state_, messages);
+    has_state_ = present.value_or(false);
+    return present.has_value();
   }
 
   /// A recording that no track can follow whatever it shows is refused before anything is written.
@@ -110,8 +125,11 @@ class Replay {
   }
 
   ReplayEnd replay() {
-    const ReplayInputs inputs{options_.session, options_.recording, session_file_->settings,
-                              *grabber_, events_};
+    ReplayInputs inputs{
+        options_.session, options_.recording, session_file_->settings, *grabber_, events_, {}};
+    if (has_state_) {
+      inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
+    }
     const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
                                 poses_,   pose_rows_,     statistics_,
                                 progress_};
@@ -171,6 +189,8 @@ class Replay {
   std::unique_ptr<drivers::SessionFile> session_file_ = std::make_unique<drivers::SessionFile>();
   std::unique_ptr<drivers::ReplayFrameGrabber> grabber_;
   drivers::ReplayEvents events_;
+  std::string state_;
+  bool has_state_ = false;
   ResultFiles results_;
   std::unique_ptr<OverlaySink> overlay_;
   PoseService poses_;

@@ -17,7 +17,9 @@
 #include "core/base/instantiate.h"
 #include "core/base/snapshot.h"
 #include "core/session/session.h"
+#include "drivers/replay/companion.h"
 #include "drivers/replay/replay_clock.h"
+#include "hal/operator_station.h"
 
 namespace tubesight::board {
 namespace {
@@ -30,6 +32,19 @@ constexpr const char* kBeyondArithmetic =
     ": the tracking cannot compute with these settings together, expected neighbouring tubes from "
     "2 "
     "mm apart and a picture within 60 degrees of the optical axis";
+
+/// Why a state was refused, behind its file's name.
+std::string why_refused(Error error, const std::string& session) {
+  switch (error) {
+    case Error::kDataLoss: return ": damaged or cut short, expected the file as the box wrote it";
+    case Error::kUnsupported:
+      return ": of another version of Tubesight or another arithmetic, expected the state of a box "
+             "of this one (its arithmetic is fixed)";
+    case Error::kInvalidArgument:
+      return ": of a box with other settings, expected those of " + session;
+    default: return ": holds what no box comes to, expected the file as the box wrote it";
+  }
+}
 
 /// What an overlay is made with.
 struct Display {
@@ -51,7 +66,8 @@ class ReplayJob {
         out_(outputs),
         script_(inputs.settings.start, inputs.events, inputs.grabber),
         clock_(inputs.grabber),
-        link_(script_),
+        link_(script_,
+              inputs.state ? ScriptedRobotLink::Rows::kAll : ScriptedRobotLink::Rows::kRobots),
         station_(script_, inputs.grabber, outputs.overlay) {
     if (outputs.overlay != nullptr) {
       display_.emplace(inputs.settings);
@@ -62,8 +78,17 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    if (in_.state) {
+      script_.leave_start_out();
+      if (const auto restored = session_.restore(*in_.state); !restored) {
+        return {ExitStatus::kWrongInput,
+                false,
+                {drivers::companion_path(in_.recording, ".state") +
+                 why_refused(restored.error(), in_.session)}};
+      }
+    }
     BoxLoop<S>& loop = loop_.emplace(
-        session_, BoxPorts{&in_.grabber, &clock_, nullptr, &link_, &station_}, services());
+        session_, BoxPorts{&in_.grabber, &clock_, nullptr, &link_, station()}, services());
     if (const auto started = loop.start(); !started) {
       return ended(started.error());
     }
@@ -78,10 +103,18 @@ class ReplayJob {
   }
 
  private:
+  /// A box's events come in the order in which it took them, whoever sent them: over the link. The
+  /// station then only shows pictures.
+  hal::OperatorStation* station() {
+    const bool only_shows = in_.state && station_.start();
+    return only_shows ? nullptr : &station_;
+  }
+
   BoxServices services() {
     BoxServices services;
-    // What the recording tells of poses is not computed again.
-    services.poses = in_.events.has_pose_results() ? nullptr : &out_.poses;
+    // What the recording tells of poses is not computed again; a box's tells of all.
+    const bool told = in_.events.has_pose_results() || in_.state;
+    services.poses = told ? nullptr : &out_.poses;
     if (display_) {
       services.view = &display_->view;
       services.overlay = &display_->latest;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <string>
 
 #include "board/bench/output/exit_status.h"
@@ -23,6 +26,9 @@ struct ReplayInputs {
   const core::SessionSettings& settings;
   drivers::ReplayFrameGrabber& grabber;
   drivers::ReplayEvents& events;
+  /// The session's state before the first field, as a box's recorder wrote it; without one the
+  /// session begins with the recording, and with the settings' start.
+  std::optional<std::span<const std::byte>> state;
 };
 
 /// What a replay writes; all opened, nothing committed.
@@ -45,8 +51,9 @@ struct ReplayEnd {
 
 /// Replays all fields: the session in arithmetic S, its answers to the outputs.
 ///
-/// kWrongInput: the settings are beyond the arithmetic, or the recording proved to be corrupt or at
-/// odds with its meta file. kJobFailed: an output cannot be written.
+/// kWrongInput: the settings are beyond the arithmetic, the state is none of theirs, or the
+/// recording proved to be corrupt or at odds with its meta file. kJobFailed: an output cannot be
+/// written.
 template <core::Scalar S>
 [[nodiscard]] ReplayEnd replay_fields(ReplayInputs inputs, ReplayOutputs outputs);
 

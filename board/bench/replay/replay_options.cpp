@@ -19,6 +19,7 @@ std::string find_output_conflict(const ReplayOptions& options) {
                 drivers::companion_path(options.recording, ".meta.csv")},
       NamedPath{"the recording's event file",
                 drivers::companion_path(options.recording, ".events.csv")},
+      NamedPath{"the recording's state", drivers::companion_path(options.recording, ".state")},
   };
   const std::array outputs = {
       NamedPath{"--fields", options.fields},

@@ -16,13 +16,16 @@ class ReplayScript final : public EventScript {
   ReplayScript(const core::StartSettings& start, drivers::ReplayEvents& recorded,
                const drivers::ReplayFrameGrabber& grabber);
 
+  /// Leaves the settings' start out: the recording is of a session that had started before.
+  void leave_start_out() { started_ = true; }
+
   [[nodiscard]] const core::Event* next() override;
   void take() override;
   [[nodiscard]] core::FieldTime field_time() const override { return grabber_->field_time(); }
 
  private:
   core::Event start_;
-  bool started_ = false;  ///< the start was taken
+  bool started_ = false;  ///< the start was taken, or left out
   drivers::ReplayEvents* recorded_;
   const drivers::ReplayFrameGrabber* grabber_;
 };

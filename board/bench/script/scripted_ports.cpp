@@ -19,7 +19,7 @@ Result<std::optional<core::Event>> ScriptReader::poll() {
     return Unexpected(Error::kNotReady);
   }
   const core::Event* const next = script_->next();
-  if (next == nullptr || next->origin != origin_) {
+  if (next == nullptr || (origin_ && next->origin != *origin_)) {
     return std::optional<core::Event>();
   }
   core::Event event = *next;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "board/bench/script/event_script.h"
@@ -9,10 +10,11 @@
 
 namespace tubesight::board {
 
-/// Hands out the script's next row when it is of this origin.
+/// Hands out the script's next row when it is of this origin, or of any where none is named.
 class ScriptReader {
  public:
-  ScriptReader(EventScript& script, core::EventOrigin origin) : script_(&script), origin_(origin) {}
+  ScriptReader(EventScript& script, std::optional<core::EventOrigin> origin)
+      : script_(&script), origin_(origin) {}
 
   [[nodiscard]] core::Result<void> start();
   void stop() { started_ = false; }
@@ -22,15 +24,24 @@ class ScriptReader {
 
  private:
   EventScript* script_;
-  core::EventOrigin origin_;
+  std::optional<core::EventOrigin> origin_;
   bool started_ = false;
 };
 
 /// The robot of a script: says its rows and hears nothing.
 class ScriptedRobotLink final : public hal::RobotLink {
  public:
+  /// Whose rows the link hands out.
+  enum class Rows : std::uint8_t {
+    kRobots,  ///< a station has the operator's
+    kAll,     ///< there is no station: rows keep their order even where instants are not in order
+  };
+
   /// `script` outlives the link.
-  explicit ScriptedRobotLink(EventScript& script) : reader_(script, core::EventOrigin::kRobot) {}
+  explicit ScriptedRobotLink(EventScript& script, Rows rows = Rows::kRobots)
+      : reader_(script, rows == Rows::kAll
+                            ? std::nullopt
+                            : std::optional<core::EventOrigin>(core::EventOrigin::kRobot)) {}
 
   [[nodiscard]] core::Result<void> start() override { return reader_.start(); }
   void stop() override { reader_.stop(); }

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "board/bench/simulate/event_rows.h"
 #include "board/bench/simulate/truth_rows.h"
+#include "drivers/files/recording_rows.h"
 #include "drivers/settings/session_text.h"
 
 namespace tubesight::board {
@@ -54,7 +54,7 @@ Result<void> RecordingFiles::open(const std::string& name, const drivers::Scenar
       checked(video_.open(name + kRecordingSuffixes[0], header, drivers::Y4mWriter::Colour::kMono),
               video_.message()));
   const std::array<std::string, 5> beginnings = {
-      std::string(kMetaHeader) + "\n", std::string(kEventsHeader) + "\n",
+      std::string(drivers::kMetaHeader) + "\n", std::string(drivers::kEventsHeader) + "\n",
       std::string(kTruthHeader) + "\n", std::string(kTrueCentersHeader) + "\n",
       heading + drivers::session_text(scenario.told)};
   for (std::size_t i = 0; i < texts_.size(); ++i) {
@@ -110,13 +110,13 @@ void RecordingFiles::add_rows(const drivers::SimulatedWorld& world,
   const std::int64_t number = 2 * frames_ + index;
   core::Field delivered = field.field;
   delivered.number = number;  // lost frames are not in the recording
-  append_meta_row(rows_[kMeta], delivered);
+  drivers::append_meta_row(rows_[kMeta], delivered);
   for (const core::Event& event : field.events) {
     if (!start_passed_ && core::content_if<core::Start>(event) != nullptr) {
       start_passed_ = true;  // replay makes it of the session's [start]
       continue;
     }
-    append_event_row(rows_[kEvents], number, event);
+    drivers::append_event_row(rows_[kEvents], number, event);
   }
   const core::CameraSettings& camera = scenario_->scene.camera;
   append_truth_row(rows_[kTruth], place, field, camera,

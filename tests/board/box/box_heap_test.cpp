@@ -1,5 +1,5 @@
 // A turn allocates nothing: the heap guard is armed around turns over the shipped recording, with a
-// robot and an operator that ask in every field, a lamp, a display and a pose service.
+// robot and an operator that ask in every field, a lamp, a display, a pose service and a recorder.
 
 #include <algorithm>
 #include <chrono>
@@ -159,9 +159,15 @@ TEST(BoxHeap, IsNotTouchedByATurn) {
   Lamp lamp;
   Robot robot;
   Operator person(file->settings.start);
+  EventRecorder recorder;
+  RecorderSettings recorder_settings;
+  recorder_settings.fields_after = 4;
+  ASSERT_TRUE(recorder.configure(recorder_settings, file->settings.camera,
+                                 core::session::Session<core::FixedPoint>::state_bytes()));
+  recorder.request();
   const auto loop = std::make_unique<BoxLoop<core::FixedPoint>>(
       *session, BoxPorts{&grabber, &clock, &lamp, &robot, &person},
-      BoxServices{&poses, &view, overlay.get(), true});
+      BoxServices{&poses, &view, overlay.get(), true, &recorder});
   ASSERT_TRUE(loop->start());
 
   int tracked = 0;
@@ -179,6 +185,8 @@ TEST(BoxHeap, IsNotTouchedByATurn) {
   EXPECT_GE(loop->counters().fields, 50);
   EXPECT_GT(2 * tracked, loop->counters().fields) << "hardly tracked: the guard saw an idle path";
   EXPECT_GE(loop->counters().missing, 6);
+  EXPECT_GE(recorder.counters().asked, 1U);
+  EXPECT_EQ(recorder.counters().refused, 0U);
   EXPECT_GE(robot.replies, 40);
   EXPECT_GE(person.replies, 40);
   EXPECT_EQ(calls.allocations, 0);

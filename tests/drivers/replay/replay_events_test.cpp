@@ -160,6 +160,40 @@ TEST(ReplayEvents, TellsWrongCellsOfTheAppendedColumns) {
                 "e:4: seen_field: '5', expected nothing for claim", "e:5: 5 cells, expected 7"}));
 }
 
+TEST(ReplayEvents, TakesWhatABoxRecordedAsItCame) {
+  const std::string header = "field,time_s,kind,values,id,seen_field,confirm,origin\n";
+  ReplayEvents events;
+  Messages messages;
+  ASSERT_TRUE(events.parse(header + "3,,start,\"1,2,3.5,4\",7,99,,robot\n"
+                                    "3,,start,,8,-2,,operator\n3,,lamp,5,9,,,operator\n"
+                                    "3,,pick,\"1,2\",10,,,\n",
+                           "e", messages))
+      << messages.front();
+  core::EventList list;
+  events.take_before(3, list);
+
+  ASSERT_EQ(list.size(), 4);
+  EXPECT_EQ(list[0].origin, core::EventOrigin::kRobot);
+  EXPECT_EQ(content_of<core::Start>(list[0]).seen_field, 99);
+  EXPECT_EQ(content_of<core::Start>(list[0]).tubes.size(), 1);
+  EXPECT_TRUE(content_of<core::Start>(list[1]).tubes.empty());
+  EXPECT_EQ(content_of<core::Start>(list[1]).seen_field, -2);
+  EXPECT_EQ(list[2].origin, core::EventOrigin::kOperator);
+  EXPECT_EQ(list[3].origin, core::EventOrigin::kOperator) << "by its kind";
+}
+
+TEST(ReplayEvents, TellsAnOriginThatIsNone) {
+  ReplayEvents events;
+  Messages messages;
+  EXPECT_FALSE(
+      events.parse("field,time_s,kind,values,id,seen_field,confirm,origin\n"
+                   "3,,lamp,5,9,,,page\n4,,start,\"1,2,3,4\",9,,,\n",
+                   "e", messages));
+  EXPECT_EQ(messages, (Messages{"e:2: origin: 'page', expected robot, operator or nothing",
+                                "e:3: values: '1,2,3,4', expected 3 to 8 clicks R,C,U,V separated "
+                                "by ';' for start"}));
+}
+
 TEST(ReplayEvents, HandsRowsBetweenFieldsToTheNext) {
   ReplayEvents events;
   Messages messages;

@@ -98,6 +98,25 @@ TEST_F(ReplayScriptTest, IsPlayedInItsOwnOrderByRobotAndOperator) {
   EXPECT_EQ(who, (std::vector<char>{'o', 'r', 'o', 'r'}));
 }
 
+TEST_F(ReplayScriptTest, OfASessionThatGoesOnKeepsTheOrderInWhichABoxTookItsEvents) {
+  // The operator's came while the robot's was taken, and is of before it.
+  record("0,0.9,claim,\"1,0\"\n0,0.5,pick,\"3,4\"\n0,0.7,claim,\"2,0\"\n");
+  ReplayScript script(start_, events_, grabber_);
+  script.leave_start_out();
+  ScriptedRobotLink link(script, ScriptedRobotLink::Rows::kAll);
+  ASSERT_TRUE(link.start());
+  grab();
+
+  std::vector<std::int64_t> instants;
+  while (script.next() != nullptr) {
+    const auto said = link.poll_event();
+    ASSERT_TRUE(said && said->has_value());
+    instants.push_back((*said)->at.value_or(core::FieldTime(0)).count());
+  }
+
+  EXPECT_EQ(instants, (std::vector<std::int64_t>{900'000'000, 500'000'000, 700'000'000}));
+}
+
 TEST_F(ReplayScriptTest, GivesRowsWithoutAnInstantTheirFields) {
   record("1,,claim,\"1,0\"\n");
   ReplayScript script(start_, events_, grabber_);

@@ -1,4 +1,4 @@
-#include "board/bench/simulate/event_rows.h"
+#include "drivers/files/recording_rows.h"
 
 #include <string>
 
@@ -8,7 +8,7 @@
 #include "drivers/replay/replay_meta.h"
 #include "tests/support/events.h"
 
-namespace tubesight::board {
+namespace tubesight::drivers {
 namespace {
 
 TEST(EventRows, AreReadBackByReplay) {
@@ -43,8 +43,8 @@ TEST(EventRows, AreReadBackByReplay) {
   event.content = pose;
   append_event_row(text, 17, event);
 
-  drivers::ReplayEvents events;
-  drivers::Messages messages;
+  ReplayEvents events;
+  Messages messages;
   ASSERT_TRUE(events.parse(text, "e", messages)) << messages.front();
 
   EXPECT_EQ(events.size(), 8U);
@@ -91,8 +91,8 @@ TEST(EventRows, KeepIdInstantAndWhatTheClickerSaw) {
   append_event_row(text, 74, pick);
   append_event_row(text, 75, claim);
 
-  drivers::ReplayEvents events;
-  drivers::Messages messages;
+  ReplayEvents events;
+  Messages messages;
   ASSERT_TRUE(events.parse(text, "e", messages)) << messages.front();
   core::EventList list;
   events.take_before(75, list);
@@ -127,8 +127,8 @@ TEST(MetaRows, AreReadBackByReplay) {
   field.mid_exposure += core::FieldTime(1);
   append_meta_row(text, field);
 
-  drivers::ReplayMeta meta;
-  drivers::Messages messages;
+  ReplayMeta meta;
+  Messages messages;
   ASSERT_TRUE(meta.parse(text, "m", messages)) << messages.front();
 
   ASSERT_EQ(meta.rows().size(), 3U);
@@ -141,4 +141,4 @@ TEST(MetaRows, AreReadBackByReplay) {
 }
 
 }  // namespace
-}  // namespace tubesight::board
+}  // namespace tubesight::drivers
