@@ -84,6 +84,14 @@ Result<void> AtomicFile::write(std::span<const std::byte> bytes) {
   return buffer_.size() < kBufferBytes ? Result<void>() : flush();
 }
 
+Result<void> AtomicFile::sync() {
+  TUBESIGHT_TRY(flush());
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) {  // EINVAL: a pipe, which keeps nothing
+    return fail("cannot be written");
+  }
+  return {};
+}
+
 Result<void> AtomicFile::commit() {
   if (!is_open()) {
     return Unexpected(Error::kNotReady);
@@ -145,6 +153,16 @@ Result<void> AtomicFile::flush() {
   }
   buffer_.clear();
   return {};
+}
+
+bool sync_folder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return false;
+  }
+  const bool synced = ::fsync(descriptor) == 0;
+  ::close(descriptor);
+  return synced;
 }
 
 }  // namespace tubesight::drivers

@@ -34,6 +34,10 @@ class AtomicFile {
   /// Errors: kIo, kNotReady.
   [[nodiscard]] core::Result<void> flush();
 
+  /// As flush(), and waits until the bytes are on the disk, so that they are there after a power
+  /// cut once the file is in its place. As slow as the disk. Errors: kIo, kNotReady.
+  [[nodiscard]] core::Result<void> sync();
+
   /// Writes the rest and puts the file in its place. Errors: kIo, kNotReady; the target is then as
   /// it was before open().
   [[nodiscard]] core::Result<void> commit();
@@ -57,5 +61,9 @@ class AtomicFile {
   int descriptor_ = -1;
   bool failed_ = false;
 };
+
+/// Waits until the names of a folder's files are on the disk: what was put in its place or removed
+/// there is so after a power cut. False when the system refuses.
+[[nodiscard]] bool sync_folder(const std::string& folder);
 
 }  // namespace tubesight::drivers

@@ -32,6 +32,9 @@ class Y4mWriter {
   /// As AtomicFile::flush().
   [[nodiscard]] core::Result<void> flush() { return file_.flush(); }
 
+  /// As AtomicFile::sync().
+  [[nodiscard]] core::Result<void> sync() { return file_.sync(); }
+
   /// Finishes the file. Errors: kIo, kNotReady.
   [[nodiscard]] core::Result<void> commit() { return file_.commit(); }
 

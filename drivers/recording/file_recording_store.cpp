@@ -28,8 +28,10 @@ Y4mInterlacing interlacing_of(core::Scan scan) {
 }  // namespace
 
 FileRecordingStore::FileRecordingStore(std::string folder, std::int64_t most_mb,
-                                       WallClock wall_clock)
-    : folder_(std::move(folder), most_mb * kMegabyte), wall_clock_(std::move(wall_clock)) {}
+                                       std::string session, WallClock wall_clock)
+    : folder_(std::move(folder), most_mb * kMegabyte),
+      session_(std::move(session)),
+      wall_clock_(std::move(wall_clock)) {}
 
 template <typename File>
 Result<void> FileRecordingStore::checked(Result<void> result, const File& file) {
@@ -54,8 +56,8 @@ Result<void> FileRecordingStore::begin(const hal::RecordingHead& head) {
   const std::int64_t picture = std::int64_t{head.width_px} * head.height_px;
   const std::int64_t frames =
       head.scan == core::Scan::kProgressive ? head.fields : head.fields / 2 + 1;
-  const std::int64_t bytes =
-      frames * picture + head.fields * kRowBytes + static_cast<std::int64_t>(head.state.size());
+  const std::int64_t bytes = frames * picture + head.fields * kRowBytes +
+                             static_cast<std::int64_t>(head.state.size() + session_.size());
   TUBESIGHT_TRY(checked(folder_.make_room(bytes), folder_));
   path_ = folder_.next_path(wall_clock_(), head.reason);
   width_px_ = head.width_px;
@@ -74,6 +76,8 @@ Result<void> FileRecordingStore::open_files(const hal::RecordingHead& head) {
   };
   TUBESIGHT_TRY(open_text(files.meta, ".meta.csv", kMetaHeader));
   TUBESIGHT_TRY(open_text(files.events, ".events.csv", kRecordedEventsHeader));
+  TUBESIGHT_TRY(checked(files.session.open(path_ + ".session.toml"), files.session));
+  TUBESIGHT_TRY(checked(files.session.write(std::string_view(session_)), files.session));
   TUBESIGHT_TRY(checked(files.state.open(path_ + ".state"), files.state));
   TUBESIGHT_TRY(checked(files.state.write(head.state), files.state));
   // No rate: the meta file has the times.
@@ -132,16 +136,19 @@ Result<void> FileRecordingStore::finish() {
   return placed;
 }
 
+/// After a power cut a picture stands for a whole recording, so it goes last.
 Result<void> FileRecordingStore::put_in_place() {
-  const auto texts = {&files_->meta, &files_->events, &files_->state};
+  const auto texts = {&files_->meta, &files_->events, &files_->state, &files_->session};
   for (AtomicFile* const text : texts) {
-    TUBESIGHT_TRY(checked(text->flush(), *text));
+    TUBESIGHT_TRY(checked(text->sync(), *text));
   }
-  TUBESIGHT_TRY(checked(files_->video.flush(), files_->video));
+  TUBESIGHT_TRY(checked(files_->video.sync(), files_->video));
   for (AtomicFile* const text : texts) {
     TUBESIGHT_TRY(checked(text->commit(), *text));
   }
-  return checked(files_->video.commit(), files_->video);
+  TUBESIGHT_TRY(checked(folder_.sync(), folder_));
+  TUBESIGHT_TRY(checked(files_->video.commit(), files_->video));
+  return checked(folder_.sync(), folder_);
 }
 
 }  // namespace tubesight::drivers

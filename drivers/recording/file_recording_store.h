@@ -15,8 +15,8 @@
 
 namespace tubesight::drivers {
 
-/// Keeps recordings as files in a folder: pictures, meta, events and state, as docs/file-formats.md
-/// describes them, for `tubesight replay`.
+/// Keeps recordings as files in a folder: pictures, meta, events, state and the session's settings,
+/// as docs/file-formats.md describes them, for `tubesight replay`.
 ///
 /// A recording's files appear under their names when all of it is written, the picture last. The
 /// oldest recordings go first when they become too many; other files of the folder are left alone.
@@ -26,8 +26,10 @@ class FileRecordingStore final : public hal::RecordingStore {
   /// Seconds since 1970, UTC, for names: of the board's clock, as nothing below it asks one.
   using WallClock = std::function<std::int64_t()>;
 
-  /// `most_mb`: of 2^20 bytes, of all recordings in the folder together.
-  FileRecordingStore(std::string folder, std::int64_t most_mb, WallClock wall_clock);
+  /// `most_mb`: of 2^20 bytes, of all recordings in the folder together. `session`: the text of the
+  /// session's settings file, which each recording gets a copy of.
+  FileRecordingStore(std::string folder, std::int64_t most_mb, std::string session,
+                     WallClock wall_clock);
 
   /// Removes what a box that was stopped left unfinished. Call once, before the first recording.
   /// Errors: kIo the folder is not there or cannot be read.
@@ -48,6 +50,7 @@ class FileRecordingStore final : public hal::RecordingStore {
   struct Files {
     AtomicFile meta;
     AtomicFile events;
+    AtomicFile session;
     AtomicFile state;
     Y4mWriter video;
   };
@@ -60,6 +63,7 @@ class FileRecordingStore final : public hal::RecordingStore {
   [[nodiscard]] core::Result<void> given_up(core::Result<void> result);
 
   RecordingFolder folder_;
+  std::string session_;
   WallClock wall_clock_;
   std::string path_;
   std::string message_;

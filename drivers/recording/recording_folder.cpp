@@ -8,6 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "drivers/files/atomic_file.h"
+
 namespace tubesight::drivers {
 namespace {
 
@@ -174,6 +176,10 @@ Result<void> RecordingFolder::make_room(std::int64_t bytes) {
     }
   }
   return {};
+}
+
+Result<void> RecordingFolder::sync() {
+  return sync_folder(folder_) ? Result<void>() : fail(Error::kIo, folder_ + ": cannot be written");
 }
 
 std::string RecordingFolder::next_path(std::int64_t utc_s, hal::RecordingReason reason) {

@@ -22,7 +22,8 @@ namespace tubesight::drivers {
 class RecordingFolder {
  public:
   /// The picture comes last: a recording without it is the remains of one.
-  static constexpr std::string_view kEndings[] = {".meta.csv", ".events.csv", ".state", ".y4m"};
+  static constexpr std::string_view kEndings[] = {".meta.csv", ".events.csv", ".session.toml",
+                                                  ".state", ".y4m"};
 
   /// `most_bytes`: of all recordings together.
   RecordingFolder(std::string folder, std::int64_t most_bytes)
@@ -42,6 +43,9 @@ class RecordingFolder {
 
   /// Removes the files of a recording, whichever are there.
   void remove(const std::string& path) const;
+
+  /// Waits until what was put there or removed is so on the disk. Errors: kIo.
+  [[nodiscard]] core::Result<void> sync();
 
   /// Why the last call failed, in one line.
   [[nodiscard]] const std::string& message() const { return message_; }

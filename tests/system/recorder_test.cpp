@@ -24,6 +24,7 @@
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
 #include "drivers/settings/session_settings.h"
+#include "drivers/settings/session_text.h"
 #include "hal/clock.h"
 #include "hal/frame_grabber.h"
 #include "tests/support/temporary_folder.h"
@@ -113,7 +114,8 @@ struct RecordedBox {
     settings.fields_after = 10;
     ASSERT_TRUE(recorder.configure(settings, file->settings.camera,
                                    core::session::Session<FixedPoint>::state_bytes()));
-    drivers::FileRecordingStore store(folder.path("."), 2000, [] { return std::int64_t{0}; });
+    drivers::FileRecordingStore store(folder.path("."), 2000, drivers::session_text(file->settings),
+                                      [] { return std::int64_t{0}; });
     ASSERT_TRUE(store.open());
     board::BoxServices services;
     services.poses = events.has_pose_results() ? nullptr : &poses;
@@ -144,24 +146,24 @@ struct RecordedBox {
     EXPECT_EQ(recorder.counters().restarted, 0U);
   }
 
-  /// Replays each recording and compares its rows with those of the whole.
+  /// Replays each recording, by the settings that came with it, and compares its rows with those of
+  /// the whole.
   void expect_rows_of(const std::string& session_file, const std::string& recording) {
     const ProgramRun whole = run_tubesight(folder, {"replay", session_file, recording, "--fields",
                                                     "whole.csv", "--centers", "wc.csv"});
     ASSERT_EQ(whole.status, 0) << whole.err;
-    expect_parts_of(session_file, folder.read("whole.csv"), folder.read("wc.csv"));
+    expect_parts_of(folder.read("whole.csv"), folder.read("wc.csv"));
   }
 
   /// The same with the rows of the box that recorded.
-  void expect_live_rows(const std::string& session_file) {
-    expect_parts_of(session_file, folder.read("live.csv"), folder.read("live_centers.csv"));
+  void expect_live_rows() {
+    expect_parts_of(folder.read("live.csv"), folder.read("live_centers.csv"));
   }
 
  private:
-  void expect_parts_of(const std::string& session_file, const std::string& fields,
-                       const std::string& centers) {
+  void expect_parts_of(const std::string& fields, const std::string& centers) {
     for (const std::string& part : recordings) {
-      const ProgramRun run = run_tubesight(folder, {"replay", session_file, part + ".y4m",
+      const ProgramRun run = run_tubesight(folder, {"replay", part + ".session.toml", part + ".y4m",
                                                     "--fields", "part.csv", "--centers", "pc.csv"});
       ASSERT_EQ(run.status, 0) << run.err;
       EXPECT_EQ(run.err, "");
@@ -201,7 +203,7 @@ TEST(Recorder, FieldsThatNeverCameAreStepsOfTheReplay) {
     RecordedBox box;
     box.play(session, recording, {10, 24, 40}, late);
     ASSERT_GE(box.recordings.size(), 2U);
-    box.expect_live_rows(session);
+    box.expect_live_rows();
     EXPECT_NE(box.folder.read("live.csv").rfind(",tracking,"), std::string::npos);
     const std::string meta =
         box.folder.read(box.recordings[1].substr(box.recordings[1].rfind('/') + 1) + ".meta.csv");

@@ -29,7 +29,7 @@ std::string name_of(int number, const char* reason = "command") {
 /// A recording of 100 bytes.
 void put(const TemporaryFolder& folder, const std::string& name) {
   for (const std::string_view ending : RecordingFolder::kEndings) {
-    folder.write(name + std::string(ending), std::string(25, 'x'));
+    folder.write(name + std::string(ending), std::string(20, 'x'));
   }
 }
 
@@ -55,14 +55,15 @@ TEST(RecordingFolder, RemovesTheOldestOfItsOwnAndNothingElse) {
   RecordingFolder recordings(folder.path("."), 300);
   ASSERT_TRUE(recordings.open());
   ASSERT_TRUE(recordings.make_room(0));
-  EXPECT_EQ(folder.names().size(), 15U);
+  EXPECT_EQ(folder.names().size(), 18U);
   ASSERT_TRUE(recordings.make_room(150));
 
   const auto names = sorted_names(folder);
-  EXPECT_EQ(names, (std::vector<std::string>{"box-000000-20261130T010107Z-command.mp4",
-                                             "box-000000-somebody.y4m", name_of(3) + ".events.csv",
-                                             name_of(3) + ".meta.csv", name_of(3) + ".state",
-                                             name_of(3) + ".y4m", "notes.txt"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"box-000000-20261130T010107Z-command.mp4",
+                                      "box-000000-somebody.y4m", name_of(3) + ".events.csv",
+                                      name_of(3) + ".meta.csv", name_of(3) + ".session.toml",
+                                      name_of(3) + ".state", name_of(3) + ".y4m", "notes.txt"}));
 }
 
 TEST(RecordingFolder, RefusesWhatNeverFits) {
@@ -72,7 +73,7 @@ TEST(RecordingFolder, RefusesWhatNeverFits) {
   ASSERT_TRUE(recordings.open());
   EXPECT_EQ(recordings.make_room(301).error(), core::Error::kOutOfRange);
   EXPECT_NE(recordings.message().find("301 bytes"), std::string::npos);
-  EXPECT_EQ(folder.names().size(), 4U) << "nothing was removed for it";
+  EXPECT_EQ(folder.names().size(), 5U) << "nothing was removed for it";
 }
 
 TEST(RecordingFolder, RemovesRemainsWhenOpened) {
@@ -87,9 +88,9 @@ TEST(RecordingFolder, RemovesRemainsWhenOpened) {
   ASSERT_TRUE(recordings.open());
 
   const auto names = sorted_names(folder);
-  ASSERT_EQ(names.size(), 5U);
-  EXPECT_EQ(names[4], "other.y4m.321-0.part");
-  EXPECT_TRUE(names[0].starts_with(name_of(1)) && names[3].starts_with(name_of(1)));
+  ASSERT_EQ(names.size(), 6U);
+  EXPECT_EQ(names[5], "other.y4m.321-0.part");
+  EXPECT_TRUE(names[0].starts_with(name_of(1)) && names[4].starts_with(name_of(1)));
 }
 
 TEST(RecordingFolder, TellsThatItIsNotThere) {
