@@ -17,9 +17,6 @@ using core::Result;
 using core::Scan;
 using core::Unexpected;
 
-constexpr std::int32_t kFewestFields = 16;  // in a segment; below that the states weigh too much
-constexpr std::uint32_t kFewestSegments = 8;
-
 void count(std::atomic<std::uint32_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
 /// The parity of the field of this number.
@@ -34,15 +31,9 @@ Parity parity_of(Scan scan, std::int64_t number) {
 
 /// Fields in a row with the state before the first.
 struct EventRecorder::Segment {
-  struct Kept {
-    Field field;
-    std::int32_t first_event = 0;
-    std::int32_t events = 0;
-  };
-
   std::vector<std::byte> state;
   std::size_t state_bytes = 0;
-  std::vector<Kept> fields;
+  std::vector<KeptField> fields;
   std::int32_t used = 0;
   std::vector<core::Event> events;  ///< of all fields, one after the other
   std::int32_t events_used = 0;
@@ -64,45 +55,23 @@ EventRecorder::~EventRecorder() = default;
 
 Result<void> EventRecorder::configure(const RecorderSettings& settings,
                                       const core::CameraSettings& camera, std::size_t state_bytes) {
+  const auto division = divide_memory(settings, camera, state_bytes);
+  if (!division) {
+    return Unexpected(division.error());
+  }
   settings_ = settings;
   camera_ = camera;
-  const std::int32_t lines =
-      camera.scan == Scan::kProgressive ? camera.height_px : (camera.height_px + 1) / 2;
-  field_bytes_ = lines * camera.width_px;
-  const std::int64_t a_field = field_bytes_ + static_cast<std::int64_t>(sizeof(Segment::Kept)) +
-                               core::kMaxEventsPerField * std::int64_t{sizeof(core::Event)};
-  const std::int64_t memory = std::int64_t{settings.memory_mb} << 20;
-  std::uint32_t segments = kMostSegments;
-  const auto fields_in = [&](std::uint32_t parts) {
-    const std::int64_t room = memory / parts - static_cast<std::int64_t>(state_bytes);
-    return static_cast<std::int32_t>(std::min<std::int64_t>(room / a_field, 1 << 16)) / 2 * 2;
-  };
-  if (fields_in(segments) < kFewestFields) {
-    segments = kFewestSegments;
-  }
-  fields_a_segment_ = fields_in(segments);
-  if (fields_a_segment_ < kFewestFields) {
-    return Unexpected(Error::kOutOfRange);
-  }
-  memory_.resize(segments);
-  if (settings.fields_after < 0 || settings.fields_after > capacity_fields() / 2) {
-    memory_.clear();
-    return Unexpected(Error::kOutOfRange);
-  }
-  const auto fields = static_cast<std::size_t>(fields_a_segment_);
-  for (std::uint32_t i = 0; i < segments; ++i) {
+  division_ = *division;
+  memory_.resize(division_.segments);
+  const auto fields = static_cast<std::size_t>(division_.fields_a_segment);
+  for (std::uint32_t i = 0; i < division_.segments; ++i) {
     memory_[i].state.resize(state_bytes);
     memory_[i].fields.resize(fields);
     memory_[i].events.resize(fields * static_cast<std::size_t>(core::kMaxEventsPerField));
-    memory_[i].pixels.resize(fields * static_cast<std::size_t>(field_bytes_));
+    memory_[i].pixels.resize(fields * static_cast<std::size_t>(division_.field_bytes));
     static_cast<void>(free_.try_push_back(i));
   }
   return {};
-}
-
-std::int32_t EventRecorder::capacity_fields() const {
-  const auto segments = static_cast<std::int32_t>(memory_.size());
-  return fields_a_segment_ * (segments - segments / 4);
 }
 
 /// Files know a field by its number, and its lines by that.
@@ -143,20 +112,22 @@ void EventRecorder::take(const core::session::Input& input, const core::session:
   } else if (going_on_ > 0) {
     --going_on_;
   }
-  if (open_ && frame_ended_ && memory_[kept_[kept_.size() - 1]].used + 2 > fields_a_segment_) {
+  if (open_ && frame_ended_ &&
+      memory_[kept_[kept_.size() - 1]].used + 2 > division_.fields_a_segment) {
     open_ = false;
   }
 }
 
 void EventRecorder::keep(const core::session::Input& input) {
   Segment& segment = memory_[kept_[kept_.size() - 1]];
-  if (segment.used == fields_a_segment_) {  // frames of one field each: as no camera goes on
+  if (segment.used ==
+      division_.fields_a_segment) {  // frames of one field each: as no camera goes on
     count(counts_.restarted);
     drop_all();
     return;
   }
   const auto place = static_cast<std::size_t>(segment.used);
-  Segment::Kept& kept = segment.fields[place];
+  KeptField& kept = segment.fields[place];
   kept.field = input.field;
   kept.first_event = segment.events_used;
   kept.events = input.events.size();
@@ -164,12 +135,13 @@ void EventRecorder::keep(const core::session::Input& input) {
             segment.events.begin() + static_cast<std::ptrdiff_t>(segment.events_used));
   segment.events_used += kept.events;
   ++segment.used;
-  std::uint8_t* to = segment.pixels.data() + place * static_cast<std::size_t>(field_bytes_);
+  std::uint8_t* to =
+      segment.pixels.data() + place * static_cast<std::size_t>(division_.field_bytes);
   const core::FieldView& from = input.field.pixels;
   kept.field.pixels = {to, camera_.width_px, 0, camera_.width_px, from.first_line, from.line_step};
   const bool copied = input.field.status != FieldStatus::kMissing && from.pixels != nullptr &&
                       from.width_px == camera_.width_px &&
-                      std::int64_t{from.lines} * from.width_px <= field_bytes_;
+                      std::int64_t{from.lines} * from.width_px <= division_.field_bytes;
   if (!copied) {
     return;
   }
@@ -191,8 +163,10 @@ void EventRecorder::look_for_reasons(const Field& field, const core::session::Ou
   if (lost && settings_.on_track_lost) {
     ask(hal::RecordingReason::kTrackLost, field);
   }
-  if (requested_.exchange(false, std::memory_order_relaxed)) {
-    ask(hal::RecordingReason::kCommand, field);
+  const std::uint32_t requested = requested_.load(std::memory_order_relaxed);
+  if (requested != taken_) {
+    ask(hal::RecordingReason::kCommand, field, {taken_ + 1, requested});
+    taken_ = requested;
   }
 }
 
@@ -215,17 +189,36 @@ bool EventRecorder::disagrees(const core::session::Output& output) {
   return anew;
 }
 
-void EventRecorder::ask(hal::RecordingReason reason, const Field& field) {
+void EventRecorder::ask(hal::RecordingReason reason, const Field& field,
+                        RecordingRequests requests) {
   count(counts_.asked);
+  if (going_on_ < 0 && kept_.empty()) {
+    refuse(reason, requests);
+    return;
+  }
   if (going_on_ >= 0) {
     count(counts_.joined);
-  } else if (kept_.empty()) {
-    count(counts_.refused);
   } else {
     head_.reason = reason;
     head_.field = field.number;
     head_.at = field.mid_exposure;
+    requests_ = {};
     going_on_ = settings_.fields_after;
+  }
+  if (requests.last != 0) {
+    requests_.first = requests_.last == 0 ? requests.first : requests_.first;
+    requests_.last = requests.last;
+  }
+}
+
+/// Whoever asked by request() hears of it, unless nobody fetched the answers to those before him.
+void EventRecorder::refuse(hal::RecordingReason reason, RecordingRequests requests) {
+  count(counts_.refused);
+  if (requests.last != 0) {
+    Recording nothing;
+    nothing.head.reason = reason;
+    nothing.requests = requests;
+    static_cast<void>(waiting_.try_push(nothing));
   }
 }
 
@@ -233,14 +226,14 @@ void EventRecorder::ask(hal::RecordingReason reason, const Field& field) {
 void EventRecorder::freeze() {
   going_on_ = -1;
   reclaim();
-  Recording recording{head_, {}};
+  Recording recording{head_, requests_, {}};
   for (const std::uint32_t segment : kept_) {
     if (memory_[segment].used > 0) {
       static_cast<void>(recording.segments.try_push_back(segment));
     }
   }
   if (free_.empty() || recording.segments.empty() || !waiting_.try_push(recording)) {
-    count(counts_.refused);
+    refuse(head_.reason, requests_);
     return;
   }
   for (const std::uint32_t segment : kept_) {
@@ -255,7 +248,7 @@ void EventRecorder::freeze() {
 void EventRecorder::drop_all() {
   if (going_on_ >= 0) {
     going_on_ = -1;
-    count(counts_.refused);
+    refuse(head_.reason, requests_);
   }
   for (const std::uint32_t segment : kept_) {
     static_cast<void>(free_.try_push_back(segment));
@@ -318,16 +311,22 @@ void EventRecorder::flush() {
   }
 }
 
-bool EventRecorder::write_next(hal::RecordingStore& store) {
+std::optional<RecordingOutcome> EventRecorder::write_next(hal::RecordingStore& store) {
   Recording recording;
   if (!waiting_.try_pop(recording)) {
-    return false;
+    return {};
   }
-  count(write(recording, store) ? counts_.written : counts_.failed);
+  RecordingOutcome outcome{RecordingOutcome::End::kRefused, recording.head.reason,
+                           recording.requests};
+  if (!recording.segments.empty()) {
+    const bool written = static_cast<bool>(write(recording, store));
+    outcome.end = written ? RecordingOutcome::End::kWritten : RecordingOutcome::End::kFailed;
+    count(written ? counts_.written : counts_.failed);
+  }
   for (const std::uint32_t segment : recording.segments) {
     static_cast<void>(back_.try_push(segment));  // there is room for all
   }
-  return true;
+  return outcome;
 }
 
 Result<void> EventRecorder::write(const Recording& recording, hal::RecordingStore& store) {
@@ -344,7 +343,7 @@ Result<void> EventRecorder::write(const Recording& recording, hal::RecordingStor
   for (const std::uint32_t number : recording.segments) {
     const Segment& segment = memory_[number];
     for (std::int32_t i = 0; i < segment.used; ++i) {
-      const Segment::Kept& kept = segment.fields[static_cast<std::size_t>(i)];
+      const KeptField& kept = segment.fields[static_cast<std::size_t>(i)];
       const auto events = std::span(segment.events)
                               .subspan(static_cast<std::size_t>(kept.first_event),
                                        static_cast<std::size_t>(kept.events));

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "board/box/recorder_memory.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
 #include "core/base/result.h"
@@ -20,12 +21,24 @@
 
 namespace tubesight::board {
 
-/// How much the recorder keeps.
-struct RecorderSettings {
-  std::int32_t memory_mb = 64;     ///< of 2^20 bytes, 4 to 65536
-  std::int32_t fields_after = 60;  ///< that a recording goes on after what it is kept for
-  bool on_disagreement = true;     ///< records by itself when a claim is contradicted
-  bool on_track_lost = true;       ///< records by itself when the track is lost
+/// Numbers that request() gave out, in a row; none where `last` is 0.
+struct RecordingRequests {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+
+  [[nodiscard]] bool hold(std::uint32_t number) const { return first <= number && number <= last; }
+};
+
+/// How a recording ended.
+struct RecordingOutcome {
+  enum class End : std::uint8_t {
+    kWritten,  ///< it is in its place
+    kFailed,   ///< the store gave it up
+    kRefused,  ///< there was nothing to write, or no memory for going on
+  };
+  End end = End::kWritten;
+  hal::RecordingReason reason = hal::RecordingReason::kCommand;  ///< what asked for it first
+  RecordingRequests requests;                                    ///< that it answers
 };
 
 /// What the recorder has come to so far. Any thread may read a copy.
@@ -72,14 +85,14 @@ class EventRecorder {
 
   /// Obtains the memory. `state_bytes`: Session::state_bytes(). Call once, before all else.
   ///
-  /// Errors: kOutOfRange the memory does not hold eight segments of 16 fields, or `fields_after` is
-  /// below 0 or over half of capacity_fields().
+  /// Errors: those of divide_memory().
   [[nodiscard]] core::Result<void> configure(const RecorderSettings& settings,
                                              const core::CameraSettings& camera,
                                              std::size_t state_bytes);
 
-  /// Asks for a recording of what just was. Any thread; never waits.
-  void request() { requested_.store(true, std::memory_order_relaxed); }
+  /// Asks for a recording of what just was. Any thread; never waits. The number, from 1 on, comes
+  /// back with an outcome of write_next(); it is lost only where outcomes are not fetched.
+  std::uint32_t request() { return requested_.fetch_add(1, std::memory_order_relaxed) + 1; }
 
   /// Keeps what the step was given and looks at what it said; `input`'s pixels are still valid.
   /// Copies a field; allocates nothing, never waits.
@@ -95,23 +108,24 @@ class EventRecorder {
   /// Ends a recording that is going on, without its further fields. After the last step.
   void flush();
 
-  /// Writes the next recording that waits. False when none does. As slow as the store.
-  bool write_next(hal::RecordingStore& store);
+  /// Writes the next recording that waits, and says how it ended; empty when none waits. As slow as
+  /// the store.
+  [[nodiscard]] std::optional<RecordingOutcome> write_next(hal::RecordingStore& store);
 
   [[nodiscard]] RecorderCounters counters() const;
 
   /// Fields that memory holds at most; valid once configured.
-  [[nodiscard]] std::int32_t capacity_fields() const;
+  [[nodiscard]] std::int32_t capacity_fields() const { return division_.capacity_fields(); }
 
  private:
   struct Segment;
 
-  static constexpr std::uint32_t kMostSegments = 16;
   using SegmentList = core::StaticVector<std::uint32_t, static_cast<std::int32_t>(kMostSegments)>;
 
-  /// Segments that are frozen, oldest first.
+  /// Segments that are frozen, oldest first; none in one that was refused.
   struct Recording {
     hal::RecordingHead head;
+    RecordingRequests requests;
     SegmentList segments;
   };
 
@@ -120,7 +134,8 @@ class EventRecorder {
   void keep(const core::session::Input& input);
   void look_for_reasons(const core::Field& field, const core::session::Output& output);
   [[nodiscard]] bool disagrees(const core::session::Output& output);
-  void ask(hal::RecordingReason reason, const core::Field& field);
+  void ask(hal::RecordingReason reason, const core::Field& field, RecordingRequests requests = {});
+  void refuse(hal::RecordingReason reason, RecordingRequests requests);
   [[nodiscard]] bool open_segment();
   void freeze();
   void drop_all();
@@ -129,8 +144,7 @@ class EventRecorder {
 
   RecorderSettings settings_;
   core::CameraSettings camera_;
-  std::int32_t fields_a_segment_ = 0;
-  std::int32_t field_bytes_ = 0;
+  RecorderMemory division_;
   std::vector<Segment> memory_;
 
   // The loop's thread.
@@ -143,9 +157,11 @@ class EventRecorder {
   std::optional<core::TubeAddress> contradicted_;  ///< the claim that was contradicted last
   std::int32_t going_on_ = -1;  ///< fields until the recording is frozen; -1: none
   hal::RecordingHead head_;     ///< of the recording going on
+  RecordingRequests requests_;  ///< of the recording going on
+  std::uint32_t taken_ = 0;     ///< requests that were seen
 
   // Between the threads.
-  std::atomic<bool> requested_{false};
+  std::atomic<std::uint32_t> requested_{0};             ///< how many so far
   core::SpscQueue<Recording, 8> waiting_;               ///< from the loop's to the writing one
   core::SpscQueue<std::uint32_t, kMostSegments> back_;  ///< written: from the writing one back
   struct Counts {
