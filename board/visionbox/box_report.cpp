@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "board/box/version.h"
 #include "board/visionbox/control_protocol.h"
@@ -131,6 +132,42 @@ void add_link(JsonLine& line, const BoxReport& report) {
   line.close();
 }
 
+bool there_is_recorder(const BoxReport& report) { return !report.recorder.folder.empty(); }
+
+void add_recorder(JsonLine& line, const BoxReport& report) {
+  line.open("recorder").add("there", there_is_recorder(report));
+  if (there_is_recorder(report)) {
+    const RecorderReport& recorder = report.recorder;
+    const auto add = [&line](std::string_view key, std::uint32_t count) {
+      line.add(key, static_cast<std::int64_t>(count));
+    };
+    line.add("folder", recorder.folder).add("open", recorder.open);
+    line.add("free_mb", recorder.free_mb).add("last", recorder.last);
+    line.add("trouble", recorder.trouble);
+    add("asked", recorder.counters.asked);
+    add("joined", recorder.counters.joined);
+    add("refused", recorder.counters.refused);
+    add("written", recorder.counters.written);
+    add("failed", recorder.counters.failed);
+    add("restarted", recorder.counters.restarted);
+  }
+  line.close();
+}
+
+std::string recorder_text(const BoxReport& report) {
+  if (!there_is_recorder(report)) {
+    return "nothing is recorded";
+  }
+  const RecorderReport& recorder = report.recorder;
+  const RecorderCounters& counters = recorder.counters;
+  std::string text = recorder.folder + ", " + std::to_string(counters.written) + " written";
+  if (counters.failed + counters.refused > 0) {
+    text += ", " + std::to_string(counters.failed) + " failed, " +
+            std::to_string(counters.refused) + " refused";
+  }
+  return text + (recorder.trouble.empty() ? "" : ": " + recorder.trouble);
+}
+
 std::string sighting_text(const core::Sighting& sighting) {
   std::string text = std::string(core::name_of(sighting.state));
   if (sighting.reason != core::Reason::kNone) {
@@ -166,9 +203,27 @@ std::string status_text(const BoxReport& report) {
   text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
                                           : std::string("nobody dims it"));
   text += "\nlink      " + link_text(report);
+  text += "\nrecorder  " + recorder_text(report);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
   return text;
+}
+
+/// Room that the next recording finds, by which older ones go.
+SelfTestRow disk_row(const BoxReport& report) {
+  using Verdict = SelfTestRow::Verdict;
+  if (!there_is_recorder(report)) {
+    return {"disk", Verdict::kAbsent, recorder_text(report)};
+  }
+  const RecorderReport& recorder = report.recorder;
+  const bool room = recorder.free_mb >= recorder.needed_mb;
+  std::string words = recorder_text(report) + ", " + std::to_string(recorder.free_mb) + " MB free";
+  if (recorder.open && !room) {
+    words += ", a recording needs " + std::to_string(recorder.needed_mb);
+  }
+  return {"disk",
+          recorder.open && recorder.trouble.empty() && room ? Verdict::kGood : Verdict::kBad,
+          std::move(words)};
 }
 
 }  // namespace
@@ -188,6 +243,7 @@ std::string status_answer(const BoxReport& report) {
     line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille).close();
   }
   add_link(line, report);
+  add_recorder(line, report);
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
@@ -219,7 +275,7 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                                 : "nobody dims it"});
   rows.push_back({"link", there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
                   link_text(report)});
-  rows.push_back({"disk", Verdict::kAbsent, "there is no recorder"});
+  rows.push_back(disk_row(report));
   rows.push_back({"priority", report.priority == 0 ? Verdict::kAbsent : good_if(tracking.scheduled),
                   tracking.scheduled ? "SCHED_FIFO " + std::to_string(report.priority)
                                      : "like every other thread"});

@@ -7,6 +7,7 @@
 
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/played_source.h"
+#include "board/visionbox/recording_writer.h"
 #include "board/visionbox/tracking_thread.h"
 
 namespace tubesight::board {
@@ -26,6 +27,7 @@ struct BoxReport {
 
   std::string_view link_kind;
   LinkReport link;
+  RecorderReport recorder;
   std::int32_t priority = 0;  ///< wanted
   bool memory_locked = false;
   bool lock_wanted = false;

@@ -1,12 +1,15 @@
 #include "board/visionbox/box_settings.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/settings_path.h"
 #include "core/base/scalar.h"
 #include "core/session/session.h"
 #include "drivers/scenario/scenario_file.h"
@@ -20,7 +23,8 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 4> kBoxTables = {"source", "control", "realtime", "link"};
+constexpr std::array<std::string_view, 5> kBoxTables = {"source", "control", "realtime", "link",
+                                                        "record"};
 constexpr std::array<std::string_view, 2> kSourceKinds = {"replay", "simulated"};
 constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
 
@@ -30,13 +34,6 @@ constexpr drivers::NumberRange kDeadline{0.1, 1000.0, " ms"};
 constexpr std::size_t kLongestSocketPath = 107;
 
 constexpr drivers::NeededTables kBoxNeeds{true, true, true, false};
-
-/// A path of a settings file, from the folder of the file that names it.
-std::string from_its_folder(const SettingsDocument& document, const TableReader& table,
-                            std::string_view key, const std::string& path) {
-  const auto file = static_cast<std::size_t>(table.place_of(key).file);
-  return (std::filesystem::path(document.files()[file]).parent_path() / path).string();
-}
 
 /// A file that one kind of source plays, and the other doesn't have.
 void read_file(const SettingsDocument& document, TableReader& table, std::string_view key,
@@ -111,6 +108,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.control_socket.clear();
   box.real_time = {};
   box.link = {};
+  box.record = {};
   drivers::read_table(document, "source", true,
                       [&](TableReader& table) { read_source(document, table, box.source); });
   drivers::read_table(document, "control", false, [&](TableReader& table) {
@@ -120,6 +118,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_real_time(table, box.real_time); });
   drivers::read_table(document, "link", false,
                       [&](TableReader& table) { read_link(table, box.link); });
+  drivers::read_table(document, "record", false,
+                      [&](TableReader& table) { read_record(document, table, box.record); });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;
@@ -135,6 +135,14 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   }
 }
 
+/// What hangs on the camera, once that is known.
+void check_memory(SettingsDocument& document, const BoxSettings& box) {
+  const std::string wrong = wrong_memory(box.record, box.told().camera);
+  if (!wrong.empty()) {
+    document.problems().push_back({document.find("record")->place, wrong});
+  }
+}
+
 }  // namespace
 
 core::Result<void> load_box_settings(drivers::TextFiles& files, const std::string& path,
@@ -144,13 +152,18 @@ core::Result<void> load_box_settings(drivers::TextFiles& files, const std::strin
   SettingsDocument document;
   document.load(files, path, known);
   read_all(document, box);
-  const auto read = document.report(messages);
-  if (box.source.kind != SourceKind::kSimulated || box.source.scenario.empty()) {
-    return read;
+  drivers::Messages of_scenario;  // its mistakes are told with the others
+  core::Result<void> scenario;
+  const bool simulated = box.source.kind == SourceKind::kSimulated;
+  if (simulated && !box.source.scenario.empty()) {
+    scenario =
+        drivers::load_scenario(files, box.source.scenario, {-1, true}, box.scenario, of_scenario);
   }
-  // Its mistakes are told with the others.
-  const auto scenario =
-      drivers::load_scenario(files, box.source.scenario, {-1, true}, box.scenario, messages);
+  if (document.problems().empty() && scenario) {
+    check_memory(document, box);
+  }
+  const auto read = document.report(messages);
+  std::ranges::move(of_scenario, std::back_inserter(messages));
   return read ? scenario : read;
 }
 

@@ -5,6 +5,7 @@
 
 #include "board/visionbox/link_settings.h"
 #include "board/visionbox/real_time.h"
+#include "board/visionbox/record_settings.h"
 #include "core/base/result.h"
 #include "drivers/files/messages.h"
 #include "drivers/scenario/scenario_file.h"
@@ -32,6 +33,7 @@ struct BoxSettings {
   std::string control_socket;  ///< empty: nobody can ask
   RealTimeSettings real_time;
   LinkSettings link;
+  RecordSettings record;
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it
 

@@ -13,6 +13,11 @@ namespace {
 /// The tracking thread answers after the next field; this is many of them.
 constexpr MonotonicTime kPatience = std::chrono::seconds(2);
 
+/// The fields that a recording goes on for, and a slow disk.
+constexpr MonotonicTime kRecordingPatience = std::chrono::seconds(60);
+
+constexpr std::string_view kRecord = "record";
+
 }  // namespace
 
 std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
@@ -29,18 +34,47 @@ std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
   }
   auto* const asked = std::get_if<EventRequest>(&request.content);
   if (asked == nullptr) {
-    return refusal_answer(request.command, "there is no recorder in this box");
+    return record(client);
   }
   asked->event.id = next_id_++;
-  if (!station_->submit(asked->event)) {
+  if (!box_->station().submit(asked->event)) {
     return refusal_answer(request.command, "the box has too much to do, ask again");
   }
   waiting_.push_back({asked->event.id, client, std::move(request.command), monotonic_now()});
   return {};
 }
 
+std::optional<std::string> ControlDesk::record(drivers::ControlClient client) {
+  if (!box_->records()) {
+    return refusal_answer(kRecord, "nothing is recorded: the settings have no [record]");
+  }
+  recordings_.push_back({box_->request_recording(), client, monotonic_now()});
+  return {};
+}
+
 void ControlDesk::serve_replies(drivers::ControlServer& server, MonotonicTime now) {
-  while (const auto reply = station_->take_reply()) {
+  serve_events(server, now);
+  serve_recordings(server, now);
+}
+
+void ControlDesk::serve_recordings(drivers::ControlServer& server, MonotonicTime now) {
+  std::erase_if(recordings_, [&](const Recording& each) {
+    const RecordAnswer answer = box_->record_answer(each.number);
+    if (answer.state == RecordAnswer::State::kWritten) {
+      server.answer(each.client, recorded_answer(answer.words));
+    } else if (answer.state == RecordAnswer::State::kNotWritten) {
+      server.answer(each.client, refusal_answer(kRecord, answer.words));
+    } else if (now - each.since > kRecordingPatience) {
+      server.answer(each.client, refusal_answer(kRecord, "not written yet, status will tell"));
+    } else {
+      return false;
+    }
+    return true;
+  });
+}
+
+void ControlDesk::serve_events(drivers::ControlServer& server, MonotonicTime now) {
+  while (const auto reply = box_->station().take_reply()) {
     const auto found = std::find_if(waiting_.begin(), waiting_.end(),
                                     [&](const Waiting& each) { return each.id == reply->id; });
     if (found != waiting_.end()) {

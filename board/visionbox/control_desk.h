@@ -9,9 +9,9 @@
 
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/script_ports.h"
+#include "board/visionbox/vision_box.h"
 #include "core/base/settings.h"
 #include "drivers/control/control_server.h"
-#include "drivers/control/socket_station.h"
 
 namespace tubesight::board {
 
@@ -21,9 +21,9 @@ class ControlDesk final : public drivers::ControlHandler {
  public:
   using Report = std::function<BoxReport()>;
 
-  /// `station` and `start` outlive the desk.
-  ControlDesk(Report report, drivers::SocketStation& station, const core::StartSettings& start)
-      : report_(std::move(report)), station_(&station), start_(&start) {}
+  /// `box` and `start` outlive the desk.
+  ControlDesk(Report report, VisionBox& box, const core::StartSettings& start)
+      : report_(std::move(report)), box_(&box), start_(&start) {}
 
   [[nodiscard]] std::optional<std::string> handle(drivers::ControlClient client,
                                                   std::string_view line) override;
@@ -32,7 +32,7 @@ class ControlDesk final : public drivers::ControlHandler {
   void serve_replies(drivers::ControlServer& server, MonotonicTime now);
 
   /// Whether somebody waits for an answer.
-  [[nodiscard]] bool busy() const { return !waiting_.empty(); }
+  [[nodiscard]] bool busy() const { return !waiting_.empty() || !recordings_.empty(); }
 
  private:
   struct Waiting {
@@ -42,10 +42,22 @@ class ControlDesk final : public drivers::ControlHandler {
     MonotonicTime since{0};
   };
 
+  /// Who waits for a recording.
+  struct Recording {
+    std::uint32_t number = 0;
+    drivers::ControlClient client = 0;
+    MonotonicTime since{0};
+  };
+
+  [[nodiscard]] std::optional<std::string> record(drivers::ControlClient client);
+  void serve_events(drivers::ControlServer& server, MonotonicTime now);
+  void serve_recordings(drivers::ControlServer& server, MonotonicTime now);
+
   Report report_;
-  drivers::SocketStation* station_;
+  VisionBox* box_;
   const core::StartSettings* start_;
   std::vector<Waiting> waiting_;
+  std::vector<Recording> recordings_;
   std::int64_t next_id_ = ScriptedStation::kFirstStationId;
 };
 

@@ -182,6 +182,13 @@ std::string refusal_answer(std::string_view command, std::string_view error) {
   return begin_answer(command, false).add("error", error).add("text", error).finish();
 }
 
+std::string recorded_answer(std::string_view path) {
+  return begin_answer("record", true)
+      .add("path", path)
+      .add("text", "written: " + std::string(path) + ".y4m")
+      .finish();
+}
+
 ControlRequest parse_request(std::string_view line, const core::StartSettings& start) {
   Words words = split(line, ' ');
   if (words.empty() || words.front() != std::to_string(kControlVersion)) {

@@ -44,6 +44,9 @@ struct ControlRequest {
 /// Reads a line. `start` without tubes takes the clicks of the settings.
 [[nodiscard]] ControlRequest parse_request(std::string_view line, const core::StartSettings& start);
 
+/// The answer to `record` when the recording is in its place: `path`, without ending.
+[[nodiscard]] std::string recorded_answer(std::string_view path);
+
 /// What the box said to an event of a client.
 [[nodiscard]] std::string reply_answer(std::string_view command, const core::Reply& reply);
 

@@ -82,10 +82,12 @@ std::string request(const std::string& command, const Options& options) {
 }
 
 int ask(const std::string& command, const Options& options) {
-  constexpr std::chrono::milliseconds kPatience{5000};
+  constexpr std::chrono::seconds kPatience{5};
+  constexpr std::chrono::seconds kRecordingPatience{70};  // it goes on a while, and is written
   drivers::ControlConnection box;
   std::string answer;
-  if (!box.open(options.socket) || !box.ask(request(command, options), kPatience, answer)) {
+  const std::chrono::milliseconds patience = command == "record" ? kRecordingPatience : kPatience;
+  if (!box.open(options.socket) || !box.ask(request(command, options), patience, answer)) {
     std::fprintf(stderr, "tubesightctl: %s\n", box.message().c_str());
     return kNoBox;
   }

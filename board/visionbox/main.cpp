@@ -72,7 +72,7 @@ int run(const BoxSettings& settings) {
     now.fields_per_s = watch.fields_per_s();
     return now;
   };
-  ControlDesk desk(report, box->station(), settings.told().start);
+  ControlDesk desk(report, *box, settings.told().start);
   drivers::ControlServer server(desk);
   if (!settings.control_socket.empty() && !server.start(settings.control_socket)) {
     log.say(server.message());

@@ -3,6 +3,7 @@
 #include "board/visionbox/link_identity.h"
 #include "board/visionbox/replay_player.h"
 #include "board/visionbox/simulated_player.h"
+#include "core/base/assert.h"
 
 namespace tubesight::board {
 namespace {
@@ -29,6 +30,27 @@ std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Cloc
                                     tell);
 }
 
+/// Null: nothing is recorded.
+std::unique_ptr<EventRecorder> make_recorder(const BoxSettings& settings) {
+  if (!settings.record.wanted()) {
+    return nullptr;
+  }
+  auto recorder = std::make_unique<EventRecorder>();
+  const auto configured =
+      recorder->configure(settings.record.recorder, settings.told().camera,
+                          core::session::Session<core::FixedPoint>::state_bytes());
+  TUBESIGHT_ASSERT(configured);  // the settings were checked for it
+  return recorder;
+}
+
+std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxSettings& settings,
+                                             const VisionBox::Tell& tell) {
+  if (recorder == nullptr) {
+    return nullptr;
+  }
+  return std::make_unique<RecordingWriter>(*recorder, settings.record, settings.told(), tell);
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
@@ -38,7 +60,9 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       source_(*player_, source_settings(), tell_),
       kept_link_(make_link(settings, source_.clock(), tell_)),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
-      loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
+      recorder_(make_recorder(settings)),
+      writer_(make_writer(recorder_.get(), settings, tell_)),
+      loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false, recorder_.get()}),
       tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
 
 PlayedSourceSettings VisionBox::source_settings() const {
@@ -76,6 +100,9 @@ Result<void> VisionBox::start_without_tracking() {
     return started;
   }
   pose_worker_.start();
+  if (writer_ != nullptr) {
+    writer_->start();
+  }
   return {};
 }
 
@@ -103,6 +130,10 @@ void VisionBox::stop() {
   pose_worker_.stop();
   loop_.stop();
   source_.stop();
+  if (writer_ != nullptr) {
+    recorder_->flush();
+    writer_->stop();
+  }
 }
 
 void VisionBox::look_after() {
@@ -122,6 +153,7 @@ BoxReport VisionBox::report() const {
   report.failures = source_.failures();
   report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
+  report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;

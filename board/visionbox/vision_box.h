@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "board/box/box_loop.h"
+#include "board/box/event_recorder.h"
 #include "board/box/pose_handover.h"
 #include "board/box/pose_service.h"
 #include "board/visionbox/box_report.h"
@@ -13,6 +15,7 @@
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/played_source.h"
 #include "board/visionbox/pose_worker.h"
+#include "board/visionbox/recording_writer.h"
 #include "board/visionbox/script_ports.h"
 #include "board/visionbox/tracking_thread.h"
 #include "core/base/result.h"
@@ -23,9 +26,9 @@ namespace tubesight::board {
 
 /// All objects of the box and how they hang together; the only place that knows.
 ///
-/// Which threads there are: the tracking thread (real time), that of the source, that of poses, and
-/// the caller's. What crosses between them does so through queues and snapshots that nobody waits
-/// for. Some 4 MB: heap.
+/// Which threads there are: the tracking thread (real time), that of the source, that of poses,
+/// that of recordings, and the caller's. What crosses between them does so through queues and
+/// snapshots that nobody waits for. Some 4 MB, and the recorder's memory: heap.
 class VisionBox {
  public:
   using Tell = std::function<void(const std::string&)>;
@@ -52,6 +55,14 @@ class VisionBox {
   void look_after();
 
   [[nodiscard]] BoxReport report() const;
+
+  /// Asks for a recording of what just was; its number, for record_answer(). Any thread.
+  [[nodiscard]] std::uint32_t request_recording() { return recorder_->request(); }
+  [[nodiscard]] RecordAnswer record_answer(std::uint32_t number) const {
+    return writer_->answer(number);
+  }
+  /// Whether there is a recorder; the two above need one.
+  [[nodiscard]] bool records() const { return recorder_ != nullptr; }
 
   [[nodiscard]] drivers::SocketStation& station() { return socket_station_; }
   [[nodiscard]] TrackingThread& tracking() { return tracking_; }
@@ -80,6 +91,9 @@ class VisionBox {
   PoseService poses_;
   PoseHandover pose_handover_;
   PoseWorker pose_worker_{pose_handover_};
+
+  std::unique_ptr<EventRecorder> recorder_;  ///< null: nothing is recorded
+  std::unique_ptr<RecordingWriter> writer_;
 
   TrackingThread::Loop loop_;
   TrackingThread tracking_;

@@ -62,7 +62,7 @@ TEST(DaemonSystem, WaitsForAStartAndAnswersWhoAsks) {
   EXPECT_TRUE(has(start.err, "refused: ")) << start.err;
   const Answered record = box.ask({"record"});
   EXPECT_EQ(record.status, 1);
-  EXPECT_TRUE(has(record.err, "there is no recorder")) << record.err;
+  EXPECT_TRUE(has(record.err, "nothing is recorded")) << record.err;
   const Answered wrong = box.ask({"start", "nonsense"});
   EXPECT_EQ(wrong.status, 1);
   EXPECT_EQ(box.ask({"lamp", "5000"}).status, 2);

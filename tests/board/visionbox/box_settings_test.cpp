@@ -66,6 +66,39 @@ TEST_F(BoxSettingsTest, EveryKeyIsRead) {
   EXPECT_EQ(box_->real_time.deadline_ms, 3.0);
 }
 
+TEST_F(BoxSettingsTest, WhatIsRecordedIsRead) {
+  ASSERT_TRUE(load(kSource));
+  EXPECT_FALSE(box_->record.wanted());
+  ASSERT_TRUE(load(std::string(kSource) + "[record]\nfolder = \"kept\"\n")) << messages_.front();
+  EXPECT_EQ(box_->record.folder, folder_.path("kept"));
+  EXPECT_EQ(box_->record.recorder.memory_mb, 64);
+  EXPECT_TRUE(box_->record.recorder.on_disagreement && box_->record.recorder.on_track_lost);
+
+  ASSERT_TRUE(load(std::string(kSource) +
+                   "[record]\nfolder = \"/var\"\nmemory_mb = 32\ndisk_mb = 40\n"
+                   "fields_after = 5\non_disagreement = false\non_track_lost = false\n"))
+      << messages_.front();
+  EXPECT_EQ(box_->record.folder, "/var");
+  EXPECT_EQ(box_->record.recorder.memory_mb, 32);
+  EXPECT_EQ(box_->record.disk_mb, 40);
+  EXPECT_EQ(box_->record.recorder.fields_after, 5);
+  EXPECT_FALSE(box_->record.recorder.on_disagreement || box_->record.recorder.on_track_lost);
+}
+
+TEST_F(BoxSettingsTest, ARecorderMustHoldItsFields) {
+  const std::string record = std::string(kSource) + "[record]\n";
+  EXPECT_FALSE(load(record + "memory_mb = 32\n"));
+  EXPECT_TRUE(told("record.folder: missing"));
+  EXPECT_FALSE(load(record + "folder = \"\"\n"));
+  EXPECT_TRUE(told("box.toml:6: record.folder: '', expected the path of a folder"));
+  EXPECT_FALSE(load(record + "folder = \"x\"\nmemory_mb = 64\ndisk_mb = 63\n"));
+  EXPECT_TRUE(told("record.disk_mb: 63, expected room for a recording of memory_mb = 64"));
+  EXPECT_FALSE(load(record + "folder = \"x\"\nmemory_mb = 8\n"));
+  EXPECT_TRUE(told("box.toml:5: record.memory_mb: 8, expected at least ")) << messages_.front();
+  EXPECT_FALSE(load(record + "folder = \"x\"\nfields_after = 5000\n"));
+  EXPECT_TRUE(told("record.fields_after: 5000, expected at most ")) << messages_.front();
+}
+
 TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
   EXPECT_FALSE(
       load("[source]\nkind = \"camera\"\nat_end = \"stop\"\nscript = 1\n"

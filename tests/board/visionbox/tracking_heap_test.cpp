@@ -1,6 +1,6 @@
 // The tracking thread allocates nothing after the start, while the thread of the source reads a
-// recording, that of poses computes one, that of the robot's link waits for masters, and a client
-// asks.
+// recording, that of poses computes one, that of the robot's link waits for masters, that of the
+// recorder writes, and a client asks.
 
 #include <memory>
 #include <string>
@@ -11,6 +11,7 @@
 #include "board/visionbox/vision_box.h"
 #include "tests/support/events.h"
 #include "tests/support/heap_guard.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tubesight::board {
 namespace {
@@ -26,6 +27,9 @@ TEST(TrackingHeap, IsNotTouchedByATurn) {
   settings->source.script = true;
   settings->link.kind = LinkKind::kModbus;
   settings->link.modbus.tcp_port = 0;
+  const support::TemporaryFolder folder;
+  settings->record.folder = folder.path(".");
+  settings->record.recorder.fields_after = 10;
   const auto box = std::make_unique<VisionBox>(*settings, [](const std::string&) {});
   ASSERT_TRUE(box->start_without_tracking());
   int tracked = 0;
@@ -41,11 +45,16 @@ TEST(TrackingHeap, IsNotTouchedByATurn) {
       calls.allocations += now.allocations;
       calls.releases += now.releases;
     }
+    if (i == 20 || i == 100) {
+      static_cast<void>(box->request_recording());
+    }
     tracked += box->loop().output().sighting.state == core::TrackState::kTracking ? 1 : 0;
   }
 
   EXPECT_GT(tracked, 40) << "hardly tracked: the guard saw an idle path";
   EXPECT_GT(box->loop().counters().missing, 10);
+  box->stop();
+  EXPECT_EQ(box->report().recorder.counters.written, 3U) << "asked for twice, and lost once";
   EXPECT_EQ(calls.allocations, 0);
   EXPECT_EQ(calls.releases, 0);
 }

@@ -1,0 +1,62 @@
+#include "board/visionbox/record_settings.h"
+
+#include <string_view>
+
+#include "board/visionbox/settings_path.h"
+#include "core/base/scalar.h"
+#include "core/session/session.h"
+
+namespace tubesight::board {
+namespace {
+
+constexpr drivers::WholeRange kMemory{4, 65'536};
+constexpr drivers::WholeRange kFieldsAfter{0, 100'000};
+constexpr drivers::WholeRange kDisk{16, 10'000'000};
+
+constexpr std::size_t kStateBytes = core::session::Session<core::FixedPoint>::state_bytes();
+
+}  // namespace
+
+void read_record(const drivers::SettingsDocument& document, drivers::TableReader& table,
+                 RecordSettings& record) {
+  std::string folder;
+  if (table.text("folder", folder)) {
+    record.folder = from_its_folder(document, table, "folder", folder);
+    if (folder.empty()) {
+      table.complain("folder", "'', expected the path of a folder");
+    }
+  }
+  table.optional_whole("memory_mb", kMemory, record.recorder.memory_mb);
+  table.optional_whole("disk_mb", kDisk, record.disk_mb);
+  table.optional_whole("fields_after", kFieldsAfter, record.recorder.fields_after);
+  table.optional_switch("on_disagreement", record.recorder.on_disagreement);
+  table.optional_switch("on_track_lost", record.recorder.on_track_lost);
+  if (table.sound("memory_mb") && table.sound("disk_mb") &&
+      record.disk_mb < record.recorder.memory_mb) {
+    table.complain("disk_mb", std::to_string(record.disk_mb) +
+                                  ", expected room for a recording of memory_mb = " +
+                                  std::to_string(record.recorder.memory_mb));
+  }
+}
+
+std::string wrong_memory(const RecordSettings& record, const core::CameraSettings& camera) {
+  if (!record.wanted() || divide_memory(record.recorder, camera, kStateBytes)) {
+    return {};
+  }
+  RecorderSettings without = record.recorder;
+  without.fields_after = 0;
+  const auto memory = divide_memory(without, camera, kStateBytes);
+  const std::string memory_mb = std::to_string(record.recorder.memory_mb);
+  if (memory) {
+    return "record.fields_after: " + std::to_string(record.recorder.fields_after) +
+           ", expected at most " + std::to_string(memory->capacity_fields() / 2) +
+           ", half of the fields that memory_mb = " + memory_mb + " holds";
+  }
+  while (!divide_memory(without, camera, kStateBytes) && without.memory_mb < kMemory.most) {
+    ++without.memory_mb;
+  }
+  return "record.memory_mb: " + memory_mb + ", expected at least " +
+         std::to_string(without.memory_mb) + " for pictures of this size";
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,162 @@
+#include "board/visionbox/recording_writer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "board/visionbox/wakeup.h"
+#include "core/base/image_view.h"
+#include "tests/support/temporary_folder.h"
+
+namespace tubesight::board {
+namespace {
+
+/// A recorder that is given fields, and its writer.
+class WriterTest : public ::testing::Test {
+ protected:
+  WriterTest() {
+    session_->camera.width_px = kWidth;
+    session_->camera.height_px = kHeight;
+    session_->camera.scan = core::Scan::kProgressive;
+    settings_.folder = folder_.path("kept");
+    settings_.disk_mb = 16;
+    settings_.recorder.memory_mb = 4;
+    settings_.recorder.fields_after = 0;
+  }
+  ~WriterTest() override {
+    if (writer_ != nullptr) {
+      writer_->stop();
+    }
+  }
+
+  void start() {
+    ASSERT_TRUE(recorder_.configure(settings_.recorder, session_->camera, 100));
+    recorder_.put_state(recorder_.state_wanted().size());
+    writer_ = std::make_unique<RecordingWriter>(recorder_, settings_, *session_,
+                                                [this](const std::string& line) {
+                                                  const std::lock_guard lock(mutex_);
+                                                  said_ += line + "\n";
+                                                });
+    writer_->start();
+  }
+
+  /// A field that is kept; the number of the request for it.
+  std::uint32_t record() {
+    const std::uint32_t number = recorder_.request();
+    input_->field.number = 2 * next_++;
+    input_->field.parity = core::Parity::kProgressive;
+    input_->field.pixels =
+        core::field_of({pixels_.data(), kWidth, kHeight, kWidth}, core::Parity::kProgressive);
+    recorder_.take(*input_, *output_);
+    const auto state = recorder_.state_wanted();
+    if (!state.empty()) {
+      recorder_.put_state(state.size());
+    }
+    return number;
+  }
+
+  RecordAnswer wait_for(std::uint32_t number) const {
+    const MonotonicTime until = monotonic_now() + std::chrono::seconds(20);
+    RecordAnswer answer = writer_->answer(number);
+    while (answer.state == RecordAnswer::State::kPending && monotonic_now() < until) {
+      sleep_until(monotonic_now() + std::chrono::milliseconds(5));
+      answer = writer_->answer(number);
+    }
+    return answer;
+  }
+
+  std::string said() {
+    const std::lock_guard lock(mutex_);
+    return said_;
+  }
+
+  static constexpr std::int32_t kWidth = 160;
+  static constexpr std::int32_t kHeight = 120;
+
+  support::TemporaryFolder folder_;
+  std::unique_ptr<core::SessionSettings> session_ = std::make_unique<core::SessionSettings>();
+  RecordSettings settings_;
+  EventRecorder recorder_;
+  std::unique_ptr<RecordingWriter> writer_;
+  std::unique_ptr<core::session::Input> input_ = std::make_unique<core::session::Input>();
+  std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
+  std::vector<std::uint8_t> pixels_ =
+      std::vector<std::uint8_t>(static_cast<std::size_t>(kWidth) * kHeight, 9);
+  std::int64_t next_ = 0;
+  std::mutex mutex_;
+  std::string said_;
+};
+
+TEST_F(WriterTest, WritesAndSaysWhere) {
+  std::filesystem::create_directory(settings_.folder);
+  start();
+  const RecordAnswer answer = wait_for(record());
+
+  ASSERT_EQ(answer.state, RecordAnswer::State::kWritten) << answer.words;
+  EXPECT_TRUE(std::filesystem::exists(answer.words + ".y4m"));
+  EXPECT_TRUE(std::filesystem::exists(answer.words + ".session.toml"));
+  const RecorderReport report = writer_->report();
+  EXPECT_TRUE(report.open);
+  EXPECT_EQ(report.last, answer.words);
+  EXPECT_EQ(report.trouble, "");
+  EXPECT_GT(report.free_mb, 0);
+  EXPECT_EQ(report.counters.written, 1U);
+  EXPECT_EQ(said(), "recorder: written, " + answer.words + "\n");
+}
+
+TEST_F(WriterTest, AFolderThatComesLaterGetsWhatWaited) {
+  start();
+  const std::uint32_t number = record();
+  EXPECT_EQ(wait_for(number).state, RecordAnswer::State::kNotWritten);
+  EXPECT_NE(wait_for(number).words.find("kept: cannot be read"), std::string::npos);
+  RecorderReport report = writer_->report();
+  EXPECT_FALSE(report.open);
+  EXPECT_NE(report.trouble.find("kept: cannot be read"), std::string::npos);
+
+  std::filesystem::create_directory(settings_.folder);
+  const MonotonicTime until = monotonic_now() + std::chrono::seconds(20);
+  do {
+    sleep_until(monotonic_now() + std::chrono::milliseconds(20));
+    report = writer_->report();
+  } while (report.counters.written == 0 && monotonic_now() < until);
+
+  EXPECT_TRUE(report.open);
+  EXPECT_EQ(report.trouble, "");
+  EXPECT_EQ(writer_->answer(number).state, RecordAnswer::State::kWritten);
+  const std::string lines = said();
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 2) << "told once each: " << lines;
+}
+
+TEST_F(WriterTest, ADiskThatGoesIsTriedAgain) {
+  std::filesystem::create_directory(settings_.folder);
+  start();
+  ASSERT_EQ(wait_for(record()).state, RecordAnswer::State::kWritten);
+  std::filesystem::remove_all(settings_.folder);
+  const RecordAnswer failed = wait_for(record());
+  EXPECT_EQ(failed.state, RecordAnswer::State::kNotWritten);
+  EXPECT_NE(failed.words.find("kept: cannot be read"), std::string::npos) << failed.words;
+  EXPECT_EQ(writer_->report().counters.failed, 1U);
+  EXPECT_NE(writer_->report().trouble, "");
+
+  std::filesystem::create_directory(settings_.folder);
+  EXPECT_EQ(wait_for(record()).state, RecordAnswer::State::kWritten);
+  EXPECT_EQ(writer_->report().trouble, "");
+}
+
+TEST_F(WriterTest, WhatWasHandedOverIsWrittenBeforeItEnds) {
+  std::filesystem::create_directory(settings_.folder);
+  start();
+  const std::uint32_t number = record();
+  writer_->stop();
+
+  EXPECT_EQ(writer_->answer(number).state, RecordAnswer::State::kWritten);
+}
+
+}  // namespace
+}  // namespace tubesight::board
