@@ -12,136 +12,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/board/box/recorder_bench.h"
 #include "tests/support/events.h"
 
 namespace tubesight::board {
 namespace {
 
 using core::Error;
-using core::Result;
 using hal::RecordingReason;
-
-constexpr std::size_t kStateBytes = 1000;
-
-/// Holds recordings in memory; fails where it is told to.
-class FakeRecordingStore final : public hal::RecordingStore {
- public:
-  struct Step {
-    core::Field field;
-    std::uint8_t grey = 0;  ///< of the first pixel
-    std::vector<std::int64_t> events;
-  };
-  struct Recording {
-    RecordingReason reason;
-    std::int64_t field = 0;
-    std::int64_t fields = 0;
-    std::size_t state_bytes = 0;
-    std::uint8_t state = 0;  ///< its first byte
-    std::vector<Step> steps;
-    bool finished = false;
-  };
-
-  Result<void> begin(const hal::RecordingHead& head) override {
-    if (fail_begin) {
-      return core::Unexpected(Error::kIo);
-    }
-    recordings.push_back({head.reason,
-                          head.field,
-                          head.fields,
-                          head.state.size(),
-                          std::to_integer<std::uint8_t>(head.state[0]),
-                          {},
-                          false});
-    return {};
-  }
-  Result<void> add(const core::Field& field, std::span<const core::Event> events) override {
-    if (fail_add) {
-      return core::Unexpected(Error::kIo);
-    }
-    Step step{field, field.pixels.lines > 0 ? *field.pixels.pixels : std::uint8_t{0}, {}};
-    for (const core::Event& event : events) {
-      step.events.push_back(event.id);
-    }
-    recordings.back().steps.push_back(step);
-    return {};
-  }
-  Result<void> finish() override {
-    recordings.back().finished = true;
-    return {};
-  }
-
-  std::vector<Recording> recordings;
-  bool fail_begin = false;
-  bool fail_add = false;
-};
-
-/// Gives the recorder fields as a loop does; the state is the number of the step before.
-class RecorderBench : public ::testing::Test {
- protected:
-  RecorderBench() {
-    camera_.width_px = 640;
-    camera_.height_px = 480;
-    settings_.memory_mb = 24;
-    settings_.fields_after = 4;
-  }
-
-  void configure() {
-    ASSERT_TRUE(recorder_->configure(settings_, camera_, kStateBytes));
-    give_state();
-  }
-
-  void give_state() {
-    const auto into = recorder_->state_wanted();
-    if (!into.empty()) {
-      ++states_;
-      into[0] = static_cast<std::byte>(input_->field.number);
-      recorder_->put_state(kStateBytes / 2);
-    }
-  }
-
-  void step() {
-    core::Field& field = input_->field;
-    field.number = next_++;
-    field.parity = field.number % 2 == 0 ? core::Parity::kEven : core::Parity::kOdd;
-    std::fill(frame_.begin(), frame_.end(), static_cast<std::uint8_t>(field.number));
-    field.pixels = core::field_of({frame_.data(), 640, 480, 640}, field.parity);
-    if (field.status == core::FieldStatus::kMissing) {
-      field.pixels = {};
-    }
-    recorder_->take(*input_, *output_);
-    give_state();
-    input_->events.clear();
-    output_->replies.clear();
-    field.status = core::FieldStatus::kGood;
-  }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) {
-      step();
-    }
-  }
-  void reply(core::ClaimVerdict verdict, core::TubeAddress claimed = {1, 2}) {
-    core::Reply reply;
-    core::ClaimReply claim;
-    claim.claimed = claimed;
-    claim.verdict = verdict;
-    reply.content = claim;
-    ASSERT_TRUE(output_->replies.try_push_back(reply));
-  }
-  void write_all() {
-    while (recorder_->write_next(store_)) {
-    }
-  }
-
-  core::CameraSettings camera_;
-  RecorderSettings settings_;
-  std::unique_ptr<EventRecorder> recorder_ = std::make_unique<EventRecorder>();
-  FakeRecordingStore store_;
-  std::unique_ptr<core::session::Input> input_ = std::make_unique<core::session::Input>();
-  std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
-  std::vector<std::uint8_t> frame_ = std::vector<std::uint8_t>(640UL * 480UL);
-  std::int64_t next_ = 0;
-  int states_ = 0;
-};
 
 TEST_F(RecorderBench, WritesWhatWasGivenFromTheFirstFieldOn) {
   configure();
@@ -288,63 +166,6 @@ TEST_F(RecorderBench, KeepsWhatFreeMemoryHoldsWhileARecordingWaits) {
   EXPECT_GE(static_cast<int>(second.size()), recorder_->capacity_fields() / 8);
   EXPECT_GE(second[0].field.number, frozen_to);
   EXPECT_EQ(recorder_->counters().refused, 0U);
-}
-
-TEST_F(RecorderBench, TellsWhoeverAskedHowItEnded) {
-  using End = RecordingOutcome::End;
-  configure();
-  steps(10);
-  EXPECT_EQ(recorder_->request(), 1U);
-  EXPECT_EQ(recorder_->request(), 2U);
-  step();
-  EXPECT_EQ(recorder_->request(), 3U) << "joins what is going on";
-  steps(8);
-  const auto first = recorder_->write_next(store_);
-  ASSERT_TRUE(first);
-  EXPECT_EQ(first->end, End::kWritten);
-  EXPECT_TRUE(first->requests.hold(1) && first->requests.hold(3));
-  EXPECT_FALSE(first->requests.hold(0) || first->requests.hold(4));
-  EXPECT_FALSE(recorder_->write_next(store_));
-
-  store_.fail_add = true;
-  EXPECT_EQ(recorder_->request(), 4U);
-  steps(8);
-  const auto second = recorder_->write_next(store_);
-  ASSERT_TRUE(second);
-  EXPECT_EQ(second->end, End::kFailed);
-  EXPECT_TRUE(second->requests.hold(4));
-  EXPECT_FALSE(second->requests.hold(3));
-}
-
-TEST_F(RecorderBench, TellsWhoeverAskedThatThereIsNoMemory) {
-  using End = RecordingOutcome::End;
-  configure();
-  std::vector<End> ends;
-  std::uint32_t told = 0;
-  for (int i = 0; i < 8; ++i) {  // nobody writes
-    steps(40);
-    recorder_->request();
-    steps(8);
-  }
-  while (const auto outcome = recorder_->write_next(store_)) {
-    ends.push_back(outcome->end);
-    told += outcome->requests.last - outcome->requests.first + 1;
-  }
-  EXPECT_EQ(std::count(ends.begin(), ends.end(), End::kRefused), recorder_->counters().refused);
-  EXPECT_GT(recorder_->counters().refused, 0U);
-  EXPECT_GT(recorder_->counters().written, 0U);
-  EXPECT_EQ(told, 8U) << "everybody was answered once";
-}
-
-TEST_F(RecorderBench, ADisagreementAnswersNobody) {
-  configure();
-  steps(10);
-  reply(core::ClaimVerdict::kContradicted);
-  steps(8);
-  const auto outcome = recorder_->write_next(store_);
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(outcome->reason, RecordingReason::kDisagreement);
-  EXPECT_EQ(outcome->requests.last, 0U);
 }
 
 TEST_F(RecorderBench, CountsWhatTheStoreGivesUpAndGoesOn) {
