@@ -142,7 +142,7 @@ void add_recorder(JsonLine& line, const BoxReport& report) {
       line.add(key, static_cast<std::int64_t>(count));
     };
     line.add("folder", recorder.folder).add("open", recorder.open);
-    line.add("free_mb", recorder.free_mb).add("last", recorder.last);
+    line.add("room_mb", recorder.room_mb).add("last", recorder.last);
     line.add("trouble", recorder.trouble);
     add("asked", recorder.counters.asked);
     add("joined", recorder.counters.joined);
@@ -216,8 +216,9 @@ SelfTestRow disk_row(const BoxReport& report) {
     return {"disk", Verdict::kAbsent, recorder_text(report)};
   }
   const RecorderReport& recorder = report.recorder;
-  const bool room = recorder.free_mb >= recorder.needed_mb;
-  std::string words = recorder_text(report) + ", " + std::to_string(recorder.free_mb) + " MB free";
+  const bool room = recorder.room_mb >= recorder.needed_mb;
+  std::string words =
+      recorder_text(report) + ", " + std::to_string(recorder.room_mb) + " MB of room";
   if (recorder.open && !room) {
     words += ", a recording needs " + std::to_string(recorder.needed_mb);
   }

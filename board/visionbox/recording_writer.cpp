@@ -1,8 +1,6 @@
 #include "board/visionbox/recording_writer.h"
 
 #include <chrono>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "board/visionbox/wakeup.h"
@@ -14,7 +12,7 @@ namespace {
 constexpr std::chrono::milliseconds kLookEvery{50};
 constexpr std::chrono::seconds kOpenEvery{1};
 constexpr std::size_t kMostEnded = 32;
-constexpr std::uintmax_t kMegabyte = 1 << 20;
+constexpr std::chrono::seconds kMeasureEvery{2};
 
 std::int64_t utc_s() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -45,6 +43,7 @@ void RecordingWriter::stop() {
 
 void RecordingWriter::run(bool is_open) {
   MonotonicTime next_open = monotonic_now() + kOpenEvery;
+  MonotonicTime next_measure = monotonic_now() + kMeasureEvery;
   while (true) {
     // Asked before the last look, so that nothing handed over before stop() is left.
     const bool last = stopping_;
@@ -55,6 +54,10 @@ void RecordingWriter::run(bool is_open) {
     }
     if (is_open) {
       write_all();
+    }
+    if (is_open && now >= next_measure) {
+      measure_room();
+      next_measure = now + kMeasureEvery;
     }
     if (last) {
       return;
@@ -79,7 +82,17 @@ bool RecordingWriter::open() {
   if (!told.empty()) {
     tell_("recorder: " + told);
   }
+  if (opened) {
+    measure_room();
+  }
   return opened;
+}
+
+/// Reads the folder, so it is done now and then.
+void RecordingWriter::measure_room() {
+  const std::int64_t room_mb = store_.room_mb().value_or(0);
+  const std::lock_guard lock(mutex_);
+  room_mb_ = room_mb;
 }
 
 void RecordingWriter::write_all() {
@@ -134,11 +147,9 @@ RecorderReport RecordingWriter::report() const {
   report.folder = settings_.folder;
   report.needed_mb = settings_.recorder.memory_mb;
   report.counters = recorder_->counters();
-  std::error_code error;
-  const auto space = std::filesystem::space(settings_.folder, error);
-  report.free_mb = error ? 0 : static_cast<std::int64_t>(space.available / kMegabyte);
   const std::lock_guard lock(mutex_);
   report.open = open_;
+  report.room_mb = room_mb_;
   report.last = last_;
   report.trouble = trouble_;
   return report;

@@ -19,7 +19,7 @@ namespace tubesight::board {
 struct RecorderReport {
   std::string folder;          ///< empty: nothing is recorded
   bool open = false;           ///< the folder is there
-  std::int64_t free_mb = 0;    ///< on its disk
+  std::int64_t room_mb = 0;    ///< what is free on its disk, and what older recordings would leave
   std::int64_t needed_mb = 0;  ///< of those, for a recording
   std::string last;            ///< the recording written last: its path without ending
   std::string trouble;         ///< why the last recording or the folder failed; empty: it did not
@@ -57,7 +57,7 @@ class RecordingWriter {
   /// What became of EventRecorder::request()'s `number`. Any thread.
   [[nodiscard]] RecordAnswer answer(std::uint32_t number) const;
 
-  /// Any thread; asks the system for the disk's room.
+  /// Any thread.
   [[nodiscard]] RecorderReport report() const;
 
  private:
@@ -68,6 +68,7 @@ class RecordingWriter {
 
   void run(bool is_open);
   [[nodiscard]] bool open();
+  void measure_room();
   void write_all();
   void take(const RecordingOutcome& outcome);
 
@@ -80,6 +81,7 @@ class RecordingWriter {
 
   mutable std::mutex mutex_;  ///< of what follows; never taken by the tracking thread
   bool open_ = false;
+  std::int64_t room_mb_ = 0;
   std::string last_;
   std::string trouble_;
   std::deque<Ended> ended_;  ///< the latest requests

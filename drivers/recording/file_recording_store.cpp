@@ -51,6 +51,15 @@ Result<void> FileRecordingStore::given_up(Result<void> result) {
 
 Result<void> FileRecordingStore::open() { return checked(folder_.open(), folder_); }
 
+Result<std::int64_t> FileRecordingStore::room_mb() {
+  const auto room = folder_.room();
+  if (!room) {
+    message_ = folder_.message();
+    return Unexpected(room.error());
+  }
+  return *room / kMegabyte;
+}
+
 Result<void> FileRecordingStore::begin(const hal::RecordingHead& head) {
   files_.reset();
   const std::int64_t picture = std::int64_t{head.width_px} * head.height_px;

@@ -40,6 +40,10 @@ class FileRecordingStore final : public hal::RecordingStore {
                                        std::span<const core::Event> events) override;
   [[nodiscard]] core::Result<void> finish() override;
 
+  /// Room for the next recording, MB of 2^20 bytes: what is free and what older ones would leave.
+  /// Errors: kIo.
+  [[nodiscard]] core::Result<std::int64_t> room_mb();
+
   /// The recording begun last: its path without ending.
   [[nodiscard]] const std::string& path() const { return path_; }
 

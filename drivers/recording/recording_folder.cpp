@@ -152,6 +152,24 @@ Result<void> RecordingFolder::open() {
   return {};
 }
 
+std::int64_t RecordingFolder::free_on_disk(const std::string& folder) {
+  std::error_code error;
+  const auto space = std::filesystem::space(folder, error);
+  return error ? 0 : static_cast<std::int64_t>(space.available);
+}
+
+Result<std::int64_t> RecordingFolder::room() {
+  std::vector<Entry> entries;
+  if (const auto listed = list(entries, false); !listed) {
+    return Unexpected(listed.error());
+  }
+  std::int64_t room = free_(folder_);
+  for (const Entry& entry : entries) {
+    room += entry.bytes;
+  }
+  return std::min(room, most_bytes_);
+}
+
 Result<void> RecordingFolder::make_room(std::int64_t bytes) {
   if (bytes > most_bytes_) {
     return fail(Error::kOutOfRange, folder_ + ": a recording of " + std::to_string(bytes) +
@@ -164,12 +182,18 @@ Result<void> RecordingFolder::make_room(std::int64_t bytes) {
   for (const Entry& entry : entries) {
     sum += entry.bytes;
   }
+  std::int64_t free = free_(folder_);
+  if (free + sum - bytes < bytes) {
+    return fail(Error::kIo, folder_ + ": the disk is full, expected room for " +
+                                std::to_string(bytes) + " bytes");
+  }
   for (const Entry& oldest : entries) {
-    if (sum <= most_bytes_) {
+    if (sum <= most_bytes_ && bytes <= free) {
       return {};
     }
     remove(path_of(oldest.name));
     sum -= oldest.bytes;
+    free += oldest.bytes;
     std::error_code ignored;
     if (std::filesystem::exists(path_of(oldest.name) + ".y4m", ignored)) {
       return fail(Error::kIo, path_of(oldest.name) + ".y4m: cannot be removed");

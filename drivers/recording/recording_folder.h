@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -25,17 +27,26 @@ class RecordingFolder {
   static constexpr std::string_view kEndings[] = {".meta.csv", ".events.csv", ".session.toml",
                                                   ".state", ".y4m"};
 
-  /// `most_bytes`: of all recordings together.
-  RecordingFolder(std::string folder, std::int64_t most_bytes)
-      : folder_(std::move(folder)), most_bytes_(most_bytes) {}
+  /// What a folder's disk has free, in bytes; 0 where nobody knows.
+  using FreeBytes = std::function<std::int64_t(const std::string& folder)>;
+  [[nodiscard]] static std::int64_t free_on_disk(const std::string& folder);
+
+  /// `most_bytes`: of all recordings together. `free` is asked of the system unless a test says it.
+  RecordingFolder(std::string folder, std::int64_t most_bytes, FreeBytes free = free_on_disk)
+      : folder_(std::move(folder)), most_bytes_(most_bytes), free_(std::move(free)) {}
 
   /// Looks what is there, and removes the remains of recordings that a box was stopped in. Errors:
   /// kIo the folder is not there or cannot be read.
   [[nodiscard]] core::Result<void> open();
 
-  /// Removes the oldest recordings until `bytes` more have room. Errors: kOutOfRange they never
-  /// have, kIo the folder cannot be read or a recording not be removed.
+  /// Removes the oldest recordings until `bytes` more have room, within the bound and on the disk.
+  /// Errors: kOutOfRange the bound is smaller; kIo all recordings together are smaller and the disk
+  /// is full, and then none is removed; kIo the folder cannot be read or a recording not be
+  /// removed.
   [[nodiscard]] core::Result<void> make_room(std::int64_t bytes);
+
+  /// Room for the next recording, bytes: what is free and what older ones would leave. Errors: kIo.
+  [[nodiscard]] core::Result<std::int64_t> room();
 
   /// The path, without ending, of the next recording; `utc_s`: seconds since 1970. Each call counts
   /// on.
@@ -64,6 +75,7 @@ class RecordingFolder {
 
   std::string folder_;
   std::int64_t most_bytes_;
+  FreeBytes free_;
   std::int64_t last_number_ = 0;
   std::string message_;
 };

@@ -74,12 +74,12 @@ TEST(SelfTest, LooksAtTheDiskOfTheRecorder) {
   EXPECT_EQ(bad_row(report), "disk") << "the folder is not there";
   report.recorder.open = true;
   report.recorder.needed_mb = 64;
-  report.recorder.free_mb = 63;
-  EXPECT_EQ(bad_row(report), "disk") << "it would be full";
-  report.recorder.free_mb = 64;
+  report.recorder.room_mb = 63;
+  EXPECT_EQ(bad_row(report), "disk") << "a recording has no room";
+  report.recorder.room_mb = 64;
   report.recorder.counters.written = 3;
   EXPECT_EQ(bad_row(report), "");
-  EXPECT_NE(self_test_answer(report).find("/kept, 3 written, 64 MB free"), std::string::npos);
+  EXPECT_NE(self_test_answer(report).find("/kept, 3 written, 64 MB of room"), std::string::npos);
   report.recorder.counters.failed = 1;
   report.recorder.trouble = "/kept/box.y4m: cannot be written: No space left on device";
   EXPECT_EQ(bad_row(report), "disk");

@@ -76,6 +76,27 @@ TEST(RecordingFolder, RefusesWhatNeverFits) {
   EXPECT_EQ(folder.names().size(), 5U) << "nothing was removed for it";
 }
 
+TEST(RecordingFolder, OldOnesGoWhereTheDiskIsFullBeforeTheBoundIsReached) {
+  const TemporaryFolder folder;
+  put(folder, name_of(1));
+  put(folder, name_of(2));
+  std::int64_t free = 30;
+  RecordingFolder recordings(folder.path("."), 1000, [&free](const std::string&) { return free; });
+  ASSERT_TRUE(recordings.open());
+  EXPECT_EQ(*recordings.room(), 230);
+  ASSERT_TRUE(recordings.make_room(130));
+  const auto names = sorted_names(folder);
+  ASSERT_EQ(names.size(), 5U);
+  EXPECT_TRUE(names[0].starts_with(name_of(2)));
+
+  EXPECT_EQ(recordings.make_room(131).error(), core::Error::kIo);
+  EXPECT_NE(recordings.message().find("the disk is full, expected room for 131 bytes"),
+            std::string::npos);
+  EXPECT_EQ(folder.names().size(), 5U) << "nothing was removed for it";
+  free = 2000;
+  EXPECT_EQ(*recordings.room(), 1000) << "the bound";
+}
+
 TEST(RecordingFolder, RemovesRemainsWhenOpened) {
   const TemporaryFolder folder;
   put(folder, name_of(1));
