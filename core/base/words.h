@@ -74,6 +74,8 @@ struct Words {
       return {"unknown-field", "the picture clicked into is none that the box has seen"};
     case StartRefusal::kSuperseded:
       return {"superseded", "another start came before the same field"};
+    case StartRefusal::kElsewhere:
+      return {"elsewhere", "the tool was just seen too far from there to have come, confirm it"};
   }
   return {};
 }

@@ -20,8 +20,11 @@ void Session<S, Margin>::step(const Input& input, Output& output) {
   output.order.tubes.clear();
   poses_.age();
   starts_.look(input.field, knows_place(state_));
-  take_starts(input.field, input.events);
+  const bool started = take_starts(input.field, input.events);
   tracker_.step(input.field, output.sighting, output.tubes);
+  if (started && tracker_.start_refusal() != StartRefusal::kElsewhere) {
+    recent_.clear();  // a track that needed a new start does not vouch for the time before it
+  }
   remember(output.sighting);
   claims_.answer_waiting(recent_, output.replies);
   std::int32_t start = 0;
@@ -31,8 +34,9 @@ void Session<S, Margin>::step(const Input& input, Output& output) {
 }
 
 // The last of several starts before one field is the one that counts; each gets its own answer.
+// Says whether there is one for the tracker.
 template <Scalar S, typename Margin>
-void Session<S, Margin>::take_starts(const Field& field, const EventList& events) {
+bool Session<S, Margin>::take_starts(const Field& field, const EventList& events) {
   start_refusals_.clear();
   const Start* last = nullptr;
   for (const Event& event : events) {
@@ -44,16 +48,16 @@ void Session<S, Margin>::take_starts(const Field& field, const EventList& events
     }
   }
   if (last == nullptr) {
-    return;
+    return false;
   }
   // Without a picture nothing can be taken, and a track that is well goes on.
   const bool picture = field.status == FieldStatus::kGood;
   const StartRefusal refusal = picture ? starts_.judge(*last) : StartRefusal::kPicture;
   static_cast<void>(start_refusals_.try_push_back(refusal));
   if (refusal == StartRefusal::kNone) {
-    recent_.clear();  // a track that needed a new start does not vouch for the time before it
-    tracker_.request_start(tracking::make_start_clicks(last->tubes));
+    tracker_.request_start(tracking::make_start_clicks(last->tubes), last->confirmed);
   }
+  return refusal == StartRefusal::kNone;
 }
 
 // The count of judged fields and the age are the session's, whatever happens to the track.

@@ -98,7 +98,7 @@ class Session {
  private:
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream);
-  void take_starts(const Field& field, const EventList& events);
+  [[nodiscard]] bool take_starts(const Field& field, const EventList& events);
   void remember(Sighting& sighting);
   void answer(const Event& event, const Input& input, std::int32_t& start, Output& output);
 

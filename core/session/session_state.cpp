@@ -20,7 +20,7 @@ namespace tubesight::core::session {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x6574617473627574;  // "tubstate"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kCheckBytes = 8;
 
 /// What stands before the body.

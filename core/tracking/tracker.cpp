@@ -11,12 +11,15 @@ void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSighti
   judged_ = false;
   observer_.clear_field();
   static_cast<void>(take_overflow_flag());
-  if (clicks_) {
+  if (clicks_ && takes(*clicks_, field)) {
     start(field, *clicks_);
-    clicks_.reset();
-  } else if (knows_place()) {
-    follow(field);
+  } else {
+    start_refusal_ = clicks_ ? StartRefusal::kElsewhere : start_refusal_;
+    if (knows_place()) {
+      follow(field);
+    }
   }
+  clicks_.reset();
   if (take_overflow_flag() && state_ != TrackState::kWaiting) {
     lose(Reason::kArithmetic);
   }
@@ -26,6 +29,12 @@ void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSighti
     report(field, sighting, tubes);
   }
   clock_.see(field);
+}
+
+// Whether the clicks may take the track's place. Where they may not, nothing changes by them.
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::takes(const StartClickList& clicks, const Field& field) const {
+  return confirmed_ || !last_place_.refutes(*model_, *map_, field, clicks);
 }
 
 template <Scalar S, typename Margin>
@@ -134,6 +143,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   doubt_.agree();
   old_pictures_.believe(rests<S>(motion_));
   order_.believe(field, seen.tool.local);
+  last_place_.believe(field, seen.pose.anchor, seen.tool.local);
   judge(seen);
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();

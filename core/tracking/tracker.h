@@ -10,6 +10,7 @@
 #include "core/tracking/field_clock.h"
 #include "core/tracking/field_order_watch.h"
 #include "core/tracking/field_report.h"
+#include "core/tracking/last_place.h"
 #include "core/tracking/margin_policy.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
@@ -39,8 +40,13 @@ class Tracker {
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
       : model_(&model), map_(&map), gate_(model), order_(model), observer_(model, map) {}
 
-  /// Takes clicks made in the field that the next step() gets; a running track is given up.
-  void request_start(const StartClickList& clicks) { clicks_ = clicks; }
+  /// Takes clicks made in the field that the next step() gets; a running track is given up, unless
+  /// they put the tool where it cannot have come since it was seen last: then the start is refused
+  /// and all else goes on, until somebody insists (`confirmed`).
+  void request_start(const StartClickList& clicks, bool confirmed = false) {
+    clicks_ = clicks;
+    confirmed_ = confirmed;
+  }
 
   /// Processes one field. Costs some 19,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
@@ -63,13 +69,13 @@ class Tracker {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [model, map, state, reason, clicks, start_refusal, good, motion, shown, judged, primary,
-           clock, gate, doubts, old_pictures, order, observer] = self;
+           clock, gate, doubts, old_pictures, order, observer, last_place, confirmed] = self;
     stream.choice(state, TrackState::kLost);
     stream.choice(reason, Reason::kNoField);
     stream(clicks);
-    stream.choice(start_refusal, StartRefusal::kSuperseded);
-    stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order,
-           observer);
+    stream.choice(start_refusal, StartRefusal::kElsewhere);
+    stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order, observer,
+           last_place, confirmed);
   }
 
  private:
@@ -78,6 +84,7 @@ class Tracker {
   }
   [[nodiscard]] bool coasts() const;
   void start(const Field& field, const StartClickList& clicks);
+  [[nodiscard]] bool takes(const StartClickList& clicks, const Field& field) const;
   void follow(const Field& field);
   void follow_unchecked(const Field& field);  ///< is defined in the self-proof alone
   [[nodiscard]] bool shows_old_picture(const Field& field);
@@ -111,6 +118,8 @@ class Tracker {
   OldPictureWatch old_pictures_{};
   FieldOrderWatch<S> order_;
   SheetObserver<S> observer_;
+  LastPlace<S> last_place_{};
+  bool confirmed_ = false;  ///< somebody insists on `clicks_`
 };
 
 }  // namespace tubesight::core::tracking
