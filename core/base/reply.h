@@ -25,6 +25,7 @@ enum class StartRefusal : std::uint8_t {
   kMoved,          ///< the tool is not known to have stood still since the picture clicked into
   kUnknownField,   ///< the picture clicked into is none that the box has seen
   kSuperseded,     ///< another start came before the same field, and that one counts
+  kMap,            ///< plugs or places without a tube look like open tube-ends
   kElsewhere,      ///< the tool was just seen too far from there; a confirmed start is taken
 };
 

@@ -37,6 +37,7 @@ enum class Reason : std::uint8_t {
   kFieldOrder,    ///< lost: the fields of a frame come in another order than the settings say
   kArithmetic,    ///< lost: a number left the range of the fixed-point format
   kNoField,       ///< coasting: no field came in time
+  kMap,           ///< lost: plugs or places without a tube look like open tube-ends
 };
 
 /// Whether the picture is known to be live; the column `liveness`.

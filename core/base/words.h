@@ -50,6 +50,8 @@ struct Words {
     case Reason::kArithmetic:
       return {"arithmetic", "a number left the range of the arithmetic", "out of range"};
     case Reason::kNoField: return {"no-field", "no field came in time", "no field came"};
+    case Reason::kMap:
+      return {"map", "sites that should be closed are open tube-ends", "map refuted"};
   }
   return {};
 }
@@ -74,6 +76,7 @@ struct Words {
       return {"unknown-field", "the picture clicked into is none that the box has seen"};
     case StartRefusal::kSuperseded:
       return {"superseded", "another start came before the same field"};
+    case StartRefusal::kMap: return {"map", "sites that should be closed are open tube-ends"};
     case StartRefusal::kElsewhere:
       return {"elsewhere", "the tool was just seen too far from there to have come, confirm it"};
   }

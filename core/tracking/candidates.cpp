@@ -128,8 +128,8 @@ bool in_box(const Block<S>& block, const Vector2<Ratio<S>>& point) {
 }
 
 // Keeps the list sorted by distance and within its capacity.
-template <Scalar S>
-void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
+template <typename List, Scalar S>
+void insert(List& list, const Candidate<S>& candidate) {
   if (list.full()) {
     if (list[list.size() - 1].distance2_px <= candidate.distance2_px) {
       return;
@@ -137,7 +137,7 @@ void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
     list.truncate(list.size() - 1);
   }
   static_cast<void>(list.try_push_back(candidate));
-  Candidate<S>* place = list.end() - 1;
+  auto* place = list.end() - 1;
   while (place != list.begin() && candidate.distance2_px < (place - 1)->distance2_px) {
     *place = *(place - 1);
     --place;
@@ -145,11 +145,29 @@ void insert(CandidateList<S>& list, const Candidate<S>& candidate) {
   *place = candidate;
 }
 
+// Puts a site into the lists that its state by the settings belongs to.
+template <Scalar S>
+void sort_in(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+             const SheetPose<S>& pose, Candidate<S>& site, CandidateList<S>& candidates,
+             SiteList<S>* closed) {
+  site.state = map.state(site.address);
+  if (site.state == TubeState::kAbsent && closed == nullptr) {
+    return;
+  }
+  site.local = model.lattice.offset(pose.anchor, site.address);
+  if (site.state != TubeState::kOpen && closed != nullptr) {
+    insert(*closed, site);
+  }
+  if (site.state != TubeState::kAbsent) {
+    insert(candidates, site);
+  }
+}
+
 // Adds the addresses of the window that are whole steps of the basis from `first`.
 template <Scalar S>
 void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
                const SheetPose<S>& pose, const Block<S>& block, TubeAddress first,
-               CandidateList<S>& candidates) {
+               CandidateList<S>& candidates, SiteList<S>* closed) {
   const auto& basis = model.lattice.parameters().basis;
   const std::int32_t optimum_u = to_scaled(model.optimum_px.x, 0);
   const std::int32_t optimum_v = to_scaled(model.optimum_px.y, 0);
@@ -193,15 +211,10 @@ void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
       }
       Candidate<S> candidate;
       candidate.address = address_at(i, j);
-      candidate.state = map.state(candidate.address);
-      if (candidate.state == TubeState::kAbsent) {
-        continue;
-      }
-      candidate.local = model.lattice.offset(pose.anchor, candidate.address);
       candidate.center_px = *pixel;
       candidate.distance2_px =
           (u - optimum_u) * (u - optimum_u) + (v - optimum_v) * (v - optimum_v);
-      insert<S>(candidates, candidate);
+      sort_in<S>(model, map, pose, candidate, candidates, closed);
     }
   }
 }
@@ -210,23 +223,27 @@ void list_from(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
 
 template <Scalar S>
 void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                     const SheetPose<S>& pose, CandidateList<S>& candidates) {
+                     const SheetPose<S>& pose, CandidateList<S>& candidates, SiteList<S>* closed) {
   candidates.clear();
+  if (closed != nullptr) {
+    closed->clear();
+  }
   Block<S> block = block_in_window<S>(model, pose);
-  list_from<S>(model, map, pose, block, pose.anchor, candidates);
+  list_from<S>(model, map, pose, block, pose.anchor, candidates, closed);
   if (model.lattice.parameters().two_kinds) {
     // Half a step of the basis off at most, either way.
     for (std::size_t i = 0; i < 2; ++i) {
       --block.low[i];
       ++block.high[i];
     }
-    list_from<S>(model, map, pose, block, model.lattice.other_kind(pose.anchor), candidates);
+    list_from<S>(model, map, pose, block, model.lattice.other_kind(pose.anchor), candidates,
+                 closed);
   }
 }
 
 #define TUBESIGHT_INSTANTIATE(S)                                                        \
   template void list_candidates<S>(const TrackingModel<S>&, const tubesheet::SheetMap&, \
-                                   const SheetPose<S>&, CandidateList<S>&);
+                                   const SheetPose<S>&, CandidateList<S>&, SiteList<S>*);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

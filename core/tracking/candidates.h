@@ -26,12 +26,18 @@ struct Candidate {
 template <Scalar S>
 using CandidateList = StaticVector<Candidate<S>, kMaxTubesInView>;
 
+/// Places where the settings say that no open tube-end is: plugs, and sites without a tube.
+template <Scalar S>
+using SiteList = StaticVector<Candidate<S>, 24>;
+
 /// Lists the tubes whose centres the pose puts into the search window, nearest to the optimum point
-/// first [Fallon 6.2]; when there are more than the list holds, the nearest.
+/// first [Fallon 6.2]; when there are more than the list holds, the nearest. `closed` gets the
+/// sites that should be closed in the same way; plugs are in both.
 ///
 /// At most 64 x 64 addresses are looked at; some 150 instructions each.
 template <Scalar S>
 void list_candidates(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                     const SheetPose<S>& pose, CandidateList<S>& candidates);
+                     const SheetPose<S>& pose, CandidateList<S>& candidates,
+                     SiteList<S>* closed = nullptr);
 
 }  // namespace tubesight::core::tracking

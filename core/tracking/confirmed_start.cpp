@@ -2,6 +2,7 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/tracking/map_watch.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
 
@@ -53,7 +54,10 @@ StartRefusal find_confirmed_start(const TrackingModel<S>& model, const FieldView
   if (!seen.fitted || seen.contradiction || seen.fit.used < 3) {
     return StartRefusal::kPicture;
   }
-  return confirms_clicks<S>(model, seen, clicks) ? StartRefusal::kNone : StartRefusal::kAddresses;
+  if (!confirms_clicks<S>(model, seen, clicks)) {
+    return StartRefusal::kAddresses;
+  }
+  return MapWatch::refuted_by(observer.record().sites) ? StartRefusal::kMap : StartRefusal::kNone;
 }
 
 #define TUBESIGHT_INSTANTIATE(S)                                                           \

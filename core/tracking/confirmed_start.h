@@ -12,7 +12,8 @@ namespace tubesight::core::tracking {
 ///
 /// The rough pose of the clicked tube-ends (find_start_pose()) is refined on all that the window
 /// shows until it settles; half of what should be there must be, and each click must lie within the
-/// bore of the very tube that it was given the address of. `seen` is fitted on kNone only.
+/// bore of the very tube that it was given the address of, and of the sites that the settings say
+/// are closed no more than two may look open. `seen` is fitted on kNone only.
 template <Scalar S>
 [[nodiscard]] StartRefusal find_confirmed_start(const TrackingModel<S>& model,
                                                 const FieldView& field,

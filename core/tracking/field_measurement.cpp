@@ -64,6 +64,14 @@ constexpr std::int32_t kLeastHalfHeightPx = 7;
 // ahead would average the two.
 constexpr std::int32_t kFilletTaps = 4;
 
+template <Scalar S>
+MeasurementBounds bounds_of(const TrackingModel<S>& model) {
+  MeasurementBounds bounds;
+  bounds.thin_rim = model.weld == Weld::kFillet;
+  bounds.taps = bounds.thin_rim ? kFilletTaps : edges::kHorizontalTaps;
+  return bounds;
+}
+
 // What a tube-end that was not measured says about a plug.
 template <Scalar S>
 void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
@@ -91,9 +99,7 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
   FindingCount count;
   LightLevels& light = record.light;
   const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
-  MeasurementBounds bounds;
-  bounds.thin_rim = model.weld == Weld::kFillet;
-  bounds.taps = bounds.thin_rim ? kFilletTaps : edges::kHorizontalTaps;
+  MeasurementBounds bounds = bounds_of<S>(model);
   count.next = look.first;
   while (count.next < look.end && record.measured.size() < look.enough) {
     const Candidate<S>& candidate = candidates[count.next++];
@@ -139,6 +145,41 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     note_plug<S>(field, candidate.address, rim->center, box, look.range_px, finding, record);
   }
   return count;
+}
+
+template <Scalar S>
+void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const SheetPose<S>& pose,
+                   const SiteList<S>& closed, const LightLevels& light, SiteSightings& sites) {
+  if (closed.empty()) {
+    return;
+  }
+  const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
+  const MeasurementBounds bounds = bounds_of<S>(model);
+  for (const Candidate<S>& site : closed) {
+    const Vector3<Mm<S>> center = pose.origin + pose.along(site.local);
+    if (cut_by_window<S>(model, site.center_px, center.z)) {
+      continue;
+    }
+    const auto rim = project_rim<S>(model, center, spokes);
+    if (!rim) {
+      continue;
+    }
+    const Box box = box_of<S>(*rim);
+    if (box.half_v < kLeastHalfHeightPx) {
+      continue;
+    }
+    if (edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2) >
+        light.region_threshold) {
+      static_cast<void>(sites.closed.try_push_back(site.address));
+      continue;
+    }
+    edges::DynamicThreshold threshold = light.edge_threshold;
+    TubeMeasurement<S> tube;
+    tube.predicted_px = rim->center;
+    if (measure_tube<S>(field, *rim, bounds, threshold, tube) == Finding::kMeasured) {
+      static_cast<void>(sites.open.try_push_back(site.address));
+    }
+  }
 }
 
 namespace {
@@ -244,12 +285,14 @@ bool shift_onto_dark_regions(const TrackingModel<S>& model, const FieldView& fie
   return true;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                         \
-  template FindingCount measure_field<S>(const TrackingModel<S>&, const FieldView&,      \
-                                         const SheetPose<S>&, const CandidateList<S>&,   \
-                                         const LookRange&, FieldRecord<S>&);             \
-  template bool shift_onto_dark_regions<S>(const TrackingModel<S>&, const FieldView&,    \
-                                           const CandidateList<S>&, Mm<S>, LightLevels&, \
+#define TUBESIGHT_INSTANTIATE(S)                                                                 \
+  template FindingCount measure_field<S>(const TrackingModel<S>&, const FieldView&,              \
+                                         const SheetPose<S>&, const CandidateList<S>&,           \
+                                         const LookRange&, FieldRecord<S>&);                     \
+  template void look_at_sites<S>(const TrackingModel<S>&, const FieldView&, const SheetPose<S>&, \
+                                 const SiteList<S>&, const LightLevels&, SiteSightings&);        \
+  template bool shift_onto_dark_regions<S>(const TrackingModel<S>&, const FieldView&,            \
+                                           const CandidateList<S>&, Mm<S>, LightLevels&,         \
                                            SheetPose<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE

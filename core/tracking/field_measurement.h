@@ -55,6 +55,18 @@ struct PlugSighting {
 template <Scalar S>
 using PlugList = StaticVector<PlugSighting<S>, 64>;
 
+/// What the sites that should be closed look like in this field; those that cannot be told are in
+/// neither list.
+struct SiteSightings {
+  StaticVector<TubeAddress, 24> open;
+  StaticVector<TubeAddress, 24> closed;
+
+  void clear() {
+    open.clear();
+    closed.clear();
+  }
+};
+
 /// What measure_field() works on from call to call.
 template <Scalar S>
 struct FieldRecord {
@@ -62,16 +74,18 @@ struct FieldRecord {
   PlugMemory plugs{};
   PlugList<S> plugs_seen{};       ///< in this field
   MeasurementList<S> measured{};  ///< in this field
+  SiteSightings sites{};          ///< in this field
 
   void begin_field() {
     plugs_seen.clear();
     measured.clear();
+    sites.clear();
   }
 
-  /// The members of the state; see core/base/state_stream.h. The last two are of one field.
+  /// The members of the state; see core/base/state_stream.h. The last three are of one field.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [levels, plug_memory, seen, tubes] = self;
+    auto& [levels, plug_memory, seen, tubes, closed_sites] = self;
     stream(levels, plug_memory);
   }
 };
@@ -93,6 +107,13 @@ template <Scalar S>
                                          const SheetPose<S>& pose,
                                          const CandidateList<S>& candidates, const LookRange& look,
                                          FieldRecord<S>& record);
+
+/// Looks at sites that should be closed, with a pose that fits the field: `sites` gets what they
+/// look like. An open tube-end is one that would be measured as such. Light is not followed. Some
+/// 500 instructions for a closed one.
+template <Scalar S>
+void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const SheetPose<S>& pose,
+                   const SiteList<S>& closed, const LightLevels& light, SiteSightings& sites);
 
 /// Shifts the predicted pose onto the tube-ends found by bisection from the predicted centres: for
 /// predictions up to 0.4 of a lattice step off, when searches across predicted rims would not

@@ -54,7 +54,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     seen.contradiction = true;
     return seen;
   };
-  list_candidates<S>(*model_, *map_, seen.pose, candidates_);
+  list_candidates<S>(*model_, *map_, seen.pose, candidates_, &closed_);
   // Pixels per mm at the anchor, in the middle of the view: f / z.
   const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, seen.pose.origin.z);
   std::int32_t range_px = 3 + to_scaled(times(expected.reach_mm, px_per_mm), 0);
@@ -65,7 +65,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
                                     seen.pose)) {
       return no_tubes();
     }
-    list_candidates<S>(*model_, *map_, seen.pose, candidates_);
+    list_candidates<S>(*model_, *map_, seen.pose, candidates_, &closed_);
     range_px = 6;
   }
   const FindingCount found = measure(field, range_px, prior_of<S>(expected), seen);
@@ -80,6 +80,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     return no_tubes();
   }
   seen.tool = *tool;
+  look_at_sites<S>(*model_, field, seen.pose, closed_, record_.light, record_.sites);
   // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
   // of a rim point's fit is known to some 0.125 px then.
   const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));

@@ -45,7 +45,7 @@ struct Observation {
     auto& [is_fitted, why_not, refuted, fitting, sheet, tool_at, deviation, picture_deviation] =
         self;
     stream(is_fitted);
-    stream.choice(why_not, Reason::kNoField);
+    stream.choice(why_not, Reason::kMap);
     stream(refuted, fitting, sheet, tool_at, deviation, picture_deviation);
   }
 };
@@ -82,14 +82,14 @@ class SheetObserver {
   [[nodiscard]] StartRefusal find_start(const FieldView& field, const StartClickList& clicks,
                                         SheetPose<S>& pose);
 
-  /// Tube-ends and plugs of the field looked at last.
+  /// Tube-ends, plugs and closed sites of the field looked at last.
   [[nodiscard]] const FieldRecord<S>& record() const { return record_; }
 
   /// The members of the state; see core/base/state_stream.h. Model and map are the settings', and
-  /// the last two are written in each field before they are read.
+  /// the last three are written in each field before they are read.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [model, map, record, candidates, equations] = self;
+    auto& [model, map, record, candidates, closed, equations] = self;
     stream(record);
   }
 
@@ -101,6 +101,7 @@ class SheetObserver {
   const tubesheet::SheetMap* map_;
   FieldRecord<S> record_{};
   CandidateList<S> candidates_{};
+  SiteList<S> closed_{};  ///< that should be
   NormalEquations<S> equations_{};
 };
 

@@ -48,6 +48,7 @@ void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks)
   clock_.begin();
   order_.begin();
   observer_.begin();
+  map_watch_.begin();
   if (field.status != FieldStatus::kGood) {
     start_refusal_ = StartRefusal::kPicture;
     return;
@@ -148,8 +149,11 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
   shown_ = {good_.pose, good_.tool};
+  map_watch_.see(observer_.record().sites);
   if (Margin::kChecked && order_.wrong()) {
     lose(Reason::kFieldOrder);
+  } else if (Margin::kChecked && map_watch_.refuted()) {
+    lose(Reason::kMap);
   }
 }
 

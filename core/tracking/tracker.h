@@ -11,6 +11,7 @@
 #include "core/tracking/field_order_watch.h"
 #include "core/tracking/field_report.h"
 #include "core/tracking/last_place.h"
+#include "core/tracking/map_watch.h"
 #include "core/tracking/margin_policy.h"
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
@@ -69,13 +70,14 @@ class Tracker {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [model, map, state, reason, clicks, start_refusal, good, motion, shown, judged, primary,
-           clock, gate, doubts, old_pictures, order, observer, last_place, confirmed] = self;
+           clock, gate, doubts, old_pictures, order, observer, last_place, map_watch, confirmed] =
+        self;
     stream.choice(state, TrackState::kLost);
-    stream.choice(reason, Reason::kNoField);
+    stream.choice(reason, Reason::kMap);
     stream(clicks);
     stream.choice(start_refusal, StartRefusal::kElsewhere);
     stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order, observer,
-           last_place, confirmed);
+           last_place, map_watch, confirmed);
   }
 
  private:
@@ -119,6 +121,7 @@ class Tracker {
   FieldOrderWatch<S> order_;
   SheetObserver<S> observer_;
   LastPlace<S> last_place_{};
+  MapWatch map_watch_{};
   bool confirmed_ = false;  ///< somebody insists on `clicks_`
 };
 

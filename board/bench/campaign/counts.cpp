@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, kCounts> kNames = {"moves",
                                                           "lost_arithmetic",
                                                           "lost_sequence",
                                                           "lost_rate",
-                                                          "lost_field_order"};
+                                                          "lost_field_order",
+                                                          "lost_map"};
 
 }  // namespace
 
@@ -56,6 +57,7 @@ Count loss_count(core::Reason reason) {
     case Reason::kSequence: return Count::kLostSequence;
     case Reason::kRate: return Count::kLostRate;
     case Reason::kFieldOrder: return Count::kLostFieldOrder;
+    case Reason::kMap: return Count::kLostMap;
     case Reason::kArithmetic: return Count::kLostArithmetic;
     default: return Count::kLostCoasted;
   }

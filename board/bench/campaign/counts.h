@@ -41,8 +41,9 @@ enum class Count : std::uint8_t {
   kLostSequence,
   kLostRate,
   kLostFieldOrder,
+  kLostMap,
 };
-inline constexpr std::size_t kCounts = 30;
+inline constexpr std::size_t kCounts = 31;
 
 /// The word of a count in files.
 [[nodiscard]] std::string_view name_of(Count count);

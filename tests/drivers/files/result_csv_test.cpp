@@ -103,6 +103,7 @@ TEST(Names, ReasonsAreOneWordEach) {
                                                           {Reason::kTime, "time"},
                                                           {Reason::kSequence, "sequence"},
                                                           {Reason::kRate, "rate"},
+                                                          {Reason::kMap, "map"},
                                                           {Reason::kFieldOrder, "field-order"},
                                                           {Reason::kArithmetic, "arithmetic"}};
   for (const auto& [reason, word] : expected) {

@@ -137,6 +137,7 @@ TEST(LossCount, KnowsEveryReasonOfALoss) {
   EXPECT_EQ(loss_count(Reason::kSequence), Count::kLostSequence);
   EXPECT_EQ(loss_count(Reason::kRate), Count::kLostRate);
   EXPECT_EQ(loss_count(Reason::kFieldOrder), Count::kLostFieldOrder);
+  EXPECT_EQ(loss_count(Reason::kMap), Count::kLostMap);
   EXPECT_EQ(loss_count(Reason::kArithmetic), Count::kLostArithmetic);
 }
 

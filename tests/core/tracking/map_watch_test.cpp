@@ -1,0 +1,75 @@
+#include "core/tracking/map_watch.h"
+
+#include <initializer_list>
+
+#include <gtest/gtest.h>
+
+namespace tubesight::core::tracking {
+namespace {
+
+SiteSightings sites(std::initializer_list<TubeAddress> open,
+                    std::initializer_list<TubeAddress> closed = {}) {
+  SiteSightings seen;
+  for (const TubeAddress address : open) {
+    EXPECT_TRUE(seen.open.try_push_back(address));
+  }
+  for (const TubeAddress address : closed) {
+    EXPECT_TRUE(seen.closed.try_push_back(address));
+  }
+  return seen;
+}
+
+TEST(MapWatch, ThreeSitesInTwoFieldsRefuteTheAddresses) {
+  MapWatch watch;
+  watch.see(sites({{1, 1}, {1, 2}, {5, 5}}));
+  EXPECT_FALSE(watch.refuted()) << "one field may be false";
+  watch.see(sites({{1, 1}, {1, 2}, {5, 5}}));
+  EXPECT_TRUE(watch.refuted());
+  watch.begin();
+  EXPECT_FALSE(watch.refuted());
+}
+
+TEST(MapWatch, TheyNeedNotBeInOnePicture) {
+  MapWatch watch;
+  for (const std::int32_t column : {1, 20, 40}) {
+    EXPECT_FALSE(watch.refuted());
+    watch.see(sites({{1, column}}));
+    watch.see(sites({{1, column}}));
+  }
+  EXPECT_TRUE(watch.refuted());
+}
+
+TEST(MapWatch, TwoPlugsThatFellOutRefuteNothingHoweverLongTheyAreSeen) {
+  MapWatch watch;
+  for (int i = 0; i < 1000; ++i) {
+    watch.see(sites({{1, 1}, {1, 2}}, {{2, 2}}));
+  }
+  EXPECT_FALSE(watch.refuted());
+}
+
+TEST(MapWatch, ASiteThatLooksClosedAgainDoesNotCount) {
+  MapWatch watch;
+  for (int i = 0; i < 10; ++i) {
+    watch.see(sites({{1, 1}, {1, 2}, {1, 3}}));
+    watch.see(sites({}, {{1, 1}, {1, 2}, {1, 3}}));
+    EXPECT_FALSE(watch.refuted());
+  }
+}
+
+TEST(MapWatch, HasRoomForAsManyAsItTakes) {
+  MapWatch watch;
+  for (std::int32_t row = 0; row < 24; ++row) {
+    watch.see(sites({{row, 0}}));  // each once: none counts
+  }
+  EXPECT_FALSE(watch.refuted());
+  watch.see(sites({{0, 0}, {1, 0}, {2, 0}}));
+  EXPECT_TRUE(watch.refuted());
+}
+
+TEST(MapWatch, OneFieldOfAStartMayBeEnough) {
+  EXPECT_FALSE(MapWatch::refuted_by(sites({{1, 1}, {1, 2}})));
+  EXPECT_TRUE(MapWatch::refuted_by(sites({{1, 1}, {1, 2}, {1, 3}})));
+}
+
+}  // namespace
+}  // namespace tubesight::core::tracking
