@@ -57,7 +57,9 @@ StartRefusal find_confirmed_start(const TrackingModel<S>& model, const FieldView
   if (!confirms_clicks<S>(model, seen, clicks)) {
     return StartRefusal::kAddresses;
   }
-  return MapWatch::refuted_by(observer.record().sites) ? StartRefusal::kMap : StartRefusal::kNone;
+  const bool refuted =
+      MapWatch::refuted_by(observer.record().sites) || observer.fits_other_addresses();
+  return refuted ? StartRefusal::kMap : StartRefusal::kNone;
 }
 
 #define TUBESIGHT_INSTANTIATE(S)                                                           \

@@ -140,7 +140,10 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       light.region_threshold = std::max(light.region_threshold, 16);
       continue;
     }
-    count.bright += finding == Finding::kBright ? 1 : 0;
+    if (finding == Finding::kBright) {
+      ++count.bright;
+      static_cast<void>(record.sites.bright.try_push_back(candidate.address));
+    }
     count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
     note_plug<S>(field, candidate.address, rim->center, box, look.range_px, finding, record);
   }

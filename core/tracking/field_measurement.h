@@ -55,15 +55,19 @@ struct PlugSighting {
 template <Scalar S>
 using PlugList = StaticVector<PlugSighting<S>, 64>;
 
-/// What the sites that should be closed look like in this field; those that cannot be told are in
-/// neither list.
+/// What sites look like in this field against what the settings say of them; those that cannot be
+/// told are in no list.
 struct SiteSightings {
-  StaticVector<TubeAddress, 24> open;
-  StaticVector<TubeAddress, 24> closed;
+  using List = StaticVector<TubeAddress, 24>;
+
+  List open;    ///< and should be closed
+  List closed;  ///< as they should be
+  List bright;  ///< and should be open tube-ends
 
   void clear() {
     open.clear();
     closed.clear();
+    bright.clear();
   }
 };
 

@@ -31,8 +31,14 @@ void MapWatch::see(const SiteSightings& sites) {
   }
 }
 
+bool MapWatch::asks() {
+  fields_ = (fields_ + 1) % kAskEvery;
+  return fields_ == 0;
+}
+
 bool MapWatch::refuted() const {
-  return std::count_if(entries_.begin(), entries_.end(),
+  return for_others_ >= kAnswers ||
+         std::count_if(entries_.begin(), entries_.end(),
                        [](const Entry& entry) { return entry.score >= kOpen; }) >= kMostOpen;
 }
 

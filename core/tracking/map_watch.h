@@ -9,11 +9,14 @@
 
 namespace tubesight::core::tracking {
 
-/// Counts the sites that are closed by the settings, plugged or without a tube, and look like open
-/// tube-ends: where three do, the addresses are wrong, or the settings are another sheet's.
+/// Tells from what the settings say of plugs and voids that the addresses are wrong, or the
+/// settings another sheet's.
 ///
-/// One or two may be a plug that fell out or a list that is out of date. A site counts after two
-/// fields more in which it looked open than closed. Holds eight addresses, more than it takes.
+/// Counts the sites that should be closed and look like open tube-ends: three are too many, one or
+/// two may be a plug that fell out or a list that is out of date. A site counts after two fields
+/// more in which it looked open than closed. Holds eight addresses, more than it takes. Where fewer
+/// are in view, the pattern of all may still fit other addresses (fits_other_addresses()): asked in
+/// each eighth field, and believed when it says so twice in a row.
 class MapWatch {
  public:
   /// Of one field alone, a start's: enough where it shows as much.
@@ -27,22 +30,31 @@ class MapWatch {
   /// What a field that is believed shows.
   void see(const SiteSightings& sites);
 
-  /// Too many sites are open that should be closed.
+  /// Whether it is time to ask whether the field fits other addresses. Call once a field believed.
+  [[nodiscard]] bool asks();
+  /// The answer.
+  void take_answer(bool fits_others) { for_others_ = fits_others ? for_others_ + 1 : 0; }
+
+  /// The addresses are wrong.
   [[nodiscard]] bool refuted() const;
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [entries] = self;
+    auto& [entries, fields, for_others] = self;
     for (auto& entry : entries) {
       stream(entry);
     }
+    stream.number(fields, 0, kAskEvery);
+    stream.number(for_others, 0, 1 << 30);
   }
 
  private:
   static constexpr std::int32_t kMostOpen = 3;
   static constexpr std::int8_t kOpen = 2;
   static constexpr std::int8_t kMost = 4;
+  static constexpr std::int32_t kAskEvery = 8;
+  static constexpr std::int32_t kAnswers = 2;
 
   struct Entry {
     TubeAddress address{};
@@ -58,6 +70,8 @@ class MapWatch {
   [[nodiscard]] Entry* find(TubeAddress address);
 
   std::array<Entry, 8> entries_{};
+  std::int32_t fields_ = 0;      ///< since it was asked last
+  std::int32_t for_others_ = 0;  ///< answers in a row that it fits others
 };
 
 }  // namespace tubesight::core::tracking

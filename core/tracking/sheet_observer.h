@@ -8,6 +8,7 @@
 #include "core/base/sighting.h"
 #include "core/tracking/candidates.h"
 #include "core/tracking/field_measurement.h"
+#include "core/tracking/map_shift.h"
 #include "core/tracking/normal_equations.h"
 #include "core/tracking/pose_fit.h"
 #include "core/tracking/sheet_pose.h"
@@ -81,6 +82,11 @@ class SheetObserver {
   /// The operator's clicks as a rough pose: find_start_pose() with this observer's light.
   [[nodiscard]] StartRefusal find_start(const FieldView& field, const StartClickList& clicks,
                                         SheetPose<S>& pose);
+
+  /// Whether the field looked at last fits the settings' lists better with other addresses.
+  [[nodiscard]] bool fits_other_addresses() const {
+    return tracking::fits_other_addresses<S>(*model_, *map_, record_);
+  }
 
   /// Tube-ends, plugs and closed sites of the field looked at last.
   [[nodiscard]] const FieldRecord<S>& record() const { return record_; }

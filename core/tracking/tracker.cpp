@@ -149,11 +149,19 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
   shown_ = {good_.pose, good_.tool};
-  map_watch_.see(observer_.record().sites);
+  watch_map();
   if (Margin::kChecked && order_.wrong()) {
     lose(Reason::kFieldOrder);
   } else if (Margin::kChecked && map_watch_.refuted()) {
     lose(Reason::kMap);
+  }
+}
+
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::watch_map() {
+  map_watch_.see(observer_.record().sites);
+  if (map_watch_.asks()) {
+    map_watch_.take_answer(observer_.fits_other_addresses());
   }
 }
 

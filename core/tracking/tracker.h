@@ -93,6 +93,7 @@ class Tracker {
   [[nodiscard]] Reason gate(const Observation<S>& seen, const SheetPose<S>& predicted,
                             Unit<S> span_s) const;
   void accept(const Observation<S>& seen, const Field& field);
+  void watch_map();
   void judge(const Observation<S>& seen);
   void reanchor();
   void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted);

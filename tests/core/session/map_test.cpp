@@ -65,6 +65,21 @@ TEST_F(MapOf, AStartWhoseAddressesAreOffIsRefusedBesideListedVoids) {
   EXPECT_EQ(start(0), StartRefusal::kNone);
 }
 
+TEST_F(MapOf, TwoListedPlugsThatAreOneStepOffAreEnough) {
+  make({kAround[0], kAround[1]}, {kAround[0], kAround[1]});
+  EXPECT_EQ(start(-1), StartRefusal::kMap);
+  EXPECT_EQ(start(0), StartRefusal::kNone);
+}
+
+TEST_F(MapOf, PlugsThatNobodyListedAreNoReasonAlone) {
+  make({{20, 11}}, {{20, 11}, {19, 10}, {21, 11}, {19, 9}, {22, 10}});
+  EXPECT_EQ(start(0), StartRefusal::kNone);
+  for (int i = 0; i < 30; ++i) {
+    run_.step(kOverTube);
+    ASSERT_EQ(run_.sighting().state, TrackState::kTracking);
+  }
+}
+
 TEST_F(MapOf, TwoPlugsThatFellOutAndOnesThatNobodyListedAreNoReason) {
   make(kAround, {kAround[0], kAround[1], {22, 11}, {18, 9}});
   EXPECT_EQ(start(0), StartRefusal::kNone);

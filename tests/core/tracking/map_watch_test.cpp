@@ -66,6 +66,21 @@ TEST(MapWatch, HasRoomForAsManyAsItTakes) {
   EXPECT_TRUE(watch.refuted());
 }
 
+TEST(MapWatch, AsksEachEighthFieldAndBelievesTwoAnswersInARow) {
+  MapWatch watch;
+  int asked = 0;
+  for (int i = 0; i < 80; ++i) {
+    if (watch.asks()) {
+      ++asked;
+      watch.take_answer(asked % 2 == 0);
+    }
+  }
+  EXPECT_EQ(asked, 10);
+  EXPECT_FALSE(watch.refuted()) << "never twice in a row";
+  watch.take_answer(true);
+  EXPECT_TRUE(watch.refuted());
+}
+
 TEST(MapWatch, OneFieldOfAStartMayBeEnough) {
   EXPECT_FALSE(MapWatch::refuted_by(sites({{1, 1}, {1, 2}})));
   EXPECT_TRUE(MapWatch::refuted_by(sites({{1, 1}, {1, 2}, {1, 3}})));
