@@ -9,8 +9,8 @@
 #   format          clang-format finds nothing to change
 #   bench           optimised build, warnings are errors, every header compiled alone, all tests and
 #                   checks but those labelled `long`
-#   bench-asan      the tests under the address, undefined-behaviour and float-cast sanitizers
-#   bench-fuzz      a short run of each fuzzer
+#   bench-asan      the tests under the address and undefined-behaviour sanitizers, built by clang
+#   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
 #   visionbox-qemu  arm64 build, its tests run under emulation
 #   bench-quick     in the folder of bench: the program, the tests that take less than a second, layering
 #   bench-long      each source of a test compiled alone too, and the tests labelled `long`
@@ -65,7 +65,10 @@ for stage in "${stages[@]}"; do
       ;;
     *)
       result=build/$stage/ctest.xml
-      [ "$stage" != bench-quick ] || result=build/bench/ctest-quick.xml
+      case $stage in
+        bench-quick) result=build/bench/ctest-quick.xml ;;
+        bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
+      esac
       if [ "$stage" != bench-tidy ]; then
         rm -f "$result"
         results+=("$result")

@@ -21,7 +21,8 @@
 #
 #     One GoogleTest program with GoogleTest's own main; each TEST becomes a ctest entry, found when
 #     ctest runs, or the program is one entry (TUBESIGHT_WHOLE_PROGRAMS: where starting it costs).
-#     Label `native` keeps it out of the emulated arm64 run, `long` out of all but `./test.sh long`.
+#     Label `native` keeps it out of the emulated arm64 run, `real_time` out of that under sanitizers,
+#     `long` out of all but `./test.sh long`.
 #
 #   Tests may use two definitions: TUBESIGHT_TEST_DATA_DIR (tests/data) and TUBESIGHT_SOURCE_DIR.
 #
@@ -249,8 +250,10 @@ function(tubesight_add_test name)
   if(TUBESIGHT_PRECOMPILE_TEST_HEADERS)
     target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
-    target_compile_options(${name} PRIVATE
-      -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${name} PRIVATE
+        -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+    endif()
   elseif(tubesight_launcher)
     set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
   endif()

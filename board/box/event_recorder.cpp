@@ -83,9 +83,11 @@ bool EventRecorder::fits(const Field& field) const {
   if (field.status != FieldStatus::kGood) {
     return true;
   }
-  const std::int32_t lines =
-      core::field_of({nullptr, camera_.width_px, camera_.height_px, camera_.width_px}, field.parity)
-          .lines;
+  // Not by field_of(), which needs a picture to point into.
+  const std::int32_t first = field.parity == Parity::kOdd ? 1 : 0;
+  const std::int32_t lines = field.parity == Parity::kProgressive
+                                 ? camera_.height_px
+                                 : (camera_.height_px - first + 1) / 2;
   return field.pixels.width_px == camera_.width_px && field.pixels.lines == lines;
 }
 

@@ -92,15 +92,26 @@ class SyntheticSheet {
   struct Surroundings {
     double radius_mm = 0.0;
     End end = End::kNone;
+    std::array<double, 2> center{};  ///< of the nearest tube
+  };
+  /// A level, and how far away on the sheet it is the same at least.
+  struct Grey {
+    double level = 0.0;
+    double clear_mm = 0.0;
   };
 
   [[nodiscard]] std::array<double, 2> ray_of(double u, double v) const;
   [[nodiscard]] Rays rays_of(const ToolPlace& place) const;
+  [[nodiscard]] bool exists(core::TubeAddress address) const;
+  [[nodiscard]] double squared_distance(core::TubeAddress address,
+                                        const std::array<double, 2>& point_mm) const;
   [[nodiscard]] End end_of(core::TubeAddress address) const;
   [[nodiscard]] Surroundings around(const std::array<double, 2>& point_mm) const;
-  [[nodiscard]] double grey(const Rays& rays, double u, double v) const;
+  [[nodiscard]] Grey grey(const Rays& rays, double scale, double u, double v) const;
+  [[nodiscard]] double most_mm_per_px(const Rays& rays, std::int32_t u, std::int32_t v) const;
 
   core::CameraSettings camera_;
+  double cell_mm_ = 0.0;  ///< width of a pixel on the sensor
   core::ToolSettings tool_;
   std::array<double, 2> origin_mm_{};
   std::array<double, 2> row_step_mm_{};
@@ -108,6 +119,7 @@ class SyntheticSheet {
   double bore_mm_ = 0.0;
   core::AddressParity addresses_ = core::AddressParity::kAll;
   double odd_row_shift_ = 0.0;
+  double alone_mm_ = 0.0;  ///< no two centres are so near to one point
   std::vector<core::TubeAddress> missing_;
   std::vector<core::TubeAddress> plugged_;
 };

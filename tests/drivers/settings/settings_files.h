@@ -24,7 +24,7 @@ class MemoryFiles final : public TextFiles {
   }
 };
 
-inline const std::string kCameraTable =
+const std::string kCameraTable =
     "[camera]\n"
     "width_px = 635\n"
     "height_px = 480\n"
@@ -38,12 +38,12 @@ inline const std::string kCameraTable =
     "center_px = [324.3, 233.8]\n"
     "distortion_per_mm2 = 0.0092\n";
 
-inline const std::string kToolTable =
+const std::string kToolTable =
     "[tool]\n"
     "position_mm = [-3.074, 31.629, 112.789]\n"
     "rotation_deg = [-0.0639, -0.8174, 47.9947]\n";
 
-inline const std::string kTubesheetTable =
+const std::string kTubesheetTable =
     "[tubesheet]\n"
     "row_step_mm = [0.0, 25.4]\n"
     "column_step_mm = [25.4, 0.0]\n"
@@ -54,7 +54,7 @@ inline const std::string kTubesheetTable =
     "           [50, 62]]\n"
     "plugged = [[48, 60]]\n";
 
-inline const std::string kStartTable =
+const std::string kStartTable =
     "[start]\n"
     "tubes = [ { row = 40, column = 60, at_px = [313, 196] },\n"
     "          { row = 41, column = 60, at_px = [321, 251] },\n"
