@@ -32,8 +32,10 @@ class Daemon {
   /// A box on the shipped recording; `more` are lines of [source].
   void write_settings(const std::string& more) const;
 
-  /// A box on the scenario of the first run in docs/.
-  void write_simulated_settings(const std::string& more) const;
+  /// A box on the scenario of the first run in docs/, or on another one.
+  void write_simulated_settings(const std::string& more,
+                                const std::string& scenario = TUBESIGHT_SOURCE_DIR
+                                "/docs/examples/steam-generator.toml") const;
 
   void start();
   /// Starts and waits until it answers.
