@@ -41,6 +41,7 @@ class Daemon {
   /// Starts and waits until it answers.
   [[nodiscard]] bool start_and_wait();
   void signal(int number) const;
+  [[nodiscard]] pid_t process() const { return process_; }
   /// Waits for its end; the exit status, -1 for a signal, -2 when it goes on.
   [[nodiscard]] int wait_for_end(std::chrono::milliseconds timeout);
 
