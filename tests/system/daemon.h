@@ -32,10 +32,9 @@ class Daemon {
   /// A box on the shipped recording; `more` are lines of [source].
   void write_settings(const std::string& more) const;
 
-  /// A box on the scenario of the first run in docs/, or on another one.
-  void write_simulated_settings(const std::string& more,
-                                const std::string& scenario = TUBESIGHT_SOURCE_DIR
-                                "/docs/examples/steam-generator.toml") const;
+  /// A box on the scenario of the first run in docs/ with the search window alone drawn, which is
+  /// cheap and shows no poses; or on another one, as it stands.
+  void write_simulated_settings(const std::string& more, std::string scenario = {}) const;
 
   void start();
   /// Starts and waits until it answers.

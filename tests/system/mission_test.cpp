@@ -42,7 +42,7 @@ std::string scenario_text(double seconds, const std::string& example) {
   constexpr double kMostVisits = 1000.0;
   const double pause_s = std::max(0.6, (seconds - kRest_s) / kMostVisits - kMove_s);
   return example.substr(0, example.find("[[step]]")) +
-         "[video]\nlength_s = " + std::to_string(seconds + 30.0) +
+         "[video]\nwindow_margin_px = 24\nlength_s = " + std::to_string(seconds + 30.0) +
          "\n[[step]]\nrest_s = " + std::to_string(kRest_s) +
          "\n[[step]]\ntour = [[40, 60], [64, 99]]\nclaim = false\npause_s = " +
          std::to_string(pause_s) + "\n";
