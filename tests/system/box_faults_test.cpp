@@ -1,10 +1,12 @@
-// Faults around a running box: masters that flood, a full disk, a second box on the line.
+// Faults around a running box: masters that flood, a full disk, a source that goes, a second box on
+// the line.
 
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <thread>
 #include <vector>
@@ -201,6 +203,30 @@ TEST(BoxFaults, AFullDiskCostsTheRecordingAloneAndTheNextIsWrittenWhenThereIsRoo
   EXPECT_EQ(number_in(status, "recorder", "written"), 1) << status;
   EXPECT_TRUE(has(box.ask({"self-test"}).out, "disk      good")) << status;
   EXPECT_EQ(count_endings(box, ".y4m"), 1);
+}
+
+TEST(BoxFaults, ASourceThatGoesIsToldCountedAndOpenedAgain) {
+  const std::string shipped = TUBESIGHT_TEST_DATA_DIR "/recordings/square_flush/";
+  Daemon box;
+  const std::string recording = box.folder().path("recording.y4m.xz");
+  std::filesystem::copy_file(shipped + "recording.y4m.xz", recording);
+  box.folder().write("box.toml", "include = [\"" + shipped +
+                                     "session.toml\"]\n[control]\nsocket = \"box\"\n[source]\n"
+                                     "kind = \"replay\"\nrecording = \"recording.y4m.xz\"\n");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+  ASSERT_TRUE(has(box.wait_for("\"state\":\"playing\"", kLong), "\"playing\"")) << box.said();
+
+  std::filesystem::rename(recording, recording + ".away");
+
+  std::string status = box.wait_for("\"state\":\"failed\"", kLong);
+  EXPECT_GE(number_in(status, "source", "failures"), 1) << status;
+  EXPECT_TRUE(has(box.ask({"self-test"}).out, "source    bad"));
+  const std::int64_t missing = number_in(status, "counters", "missing");
+  EXPECT_TRUE(has(box.said(), "recording.y4m.xz: cannot be read")) << box.said();
+  std::filesystem::rename(recording + ".away", recording);
+  status = box.wait_for("\"state\":\"playing\"", kLong);
+  EXPECT_TRUE(has(status, "\"state\":\"playing\"")) << status;
+  EXPECT_GT(number_in(status, "counters", "missing"), missing) << "steps went on without fields";
 }
 
 TEST(BoxFaults, ASecondBoxDoesNotGetTheLineOfTheFirst) {

@@ -1,4 +1,5 @@
-// A robot asks a running box for its pose over the link, and moves by the correction that it gets.
+// What a robot can order of a running box over the link: its pose with the correction to move by, a
+// tube at a place of the picture, the lamp, an end to a verdict.
 
 #include <chrono>
 #include <cstdint>
@@ -27,6 +28,10 @@ using SheetTool = core::Transform<core::frames::Sheet, core::frames::Tool>;
 constexpr double kLength = 1e4;  // registers a millimetre
 constexpr double kAngle = 1e5;   // and a degree
 
+constexpr std::uint8_t kPickBit = 2;
+constexpr std::uint8_t kLampBit = 4;
+constexpr std::uint8_t kPoseBit = 8;
+constexpr std::uint8_t kAcknowledgeBit = 16;
 constexpr int kRefused = 4;  // pose_result
 constexpr int kMoving = 2;   // pose_reason
 
@@ -37,7 +42,7 @@ double value(const Bytes& answer, int first, int at, double per_unit) {
   return raw / per_unit;
 }
 
-class RobotPose : public ::testing::Test {
+class RobotCommands : public ::testing::Test {
  protected:
   /// The plant of the first run; the tool rests beside the tube's centre, turned and leaning.
   void SetUp() override {
@@ -57,6 +62,8 @@ class RobotPose : public ::testing::Test {
             line_.device() + "\"\n",
         scenario);
     ASSERT_TRUE(box_.start_and_wait()) << box_.said();
+    const std::string status = box_.wait_for("\"state\":\"tracking\"", std::chrono::seconds(20));
+    ASSERT_NE(status.find("\"tracking\""), std::string::npos) << box_.said();
   }
 
   [[nodiscard]] std::uint32_t word(std::uint8_t low) const {
@@ -64,16 +71,25 @@ class RobotPose : public ::testing::Test {
     return answer.size() == 4 ? answer[2] * 256U + answer[3] : 0xFFFF;
   }
 
-  /// Asks for the pose and waits for the result: the registers 424 to 463.
-  [[nodiscard]] Bytes ask_for_pose() const {
-    constexpr std::uint8_t kPoseBit = 8;
-    constexpr std::uint8_t kAcknowledge = 400 - 256;
-    EXPECT_EQ(ask(line_, {6, 1, 320 - 256, 0, kPoseBit}).size(), 5U);
-    for (int i = 0; i < 500 && (word(kAcknowledge) & kPoseBit) == 0; ++i) {
+  /// Sets a bit of `command` and waits until the result is there.
+  void order(std::uint8_t bit) const {
+    EXPECT_EQ(ask(line_, {6, 1, 320 - 256, 0, bit}).size(), 5U);
+    for (int i = 0; i < 500 && (word(400 - 256) & bit) == 0; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    Bytes answer = ask(line_, {3, 1, 424 - 256, 0, 40});
+    EXPECT_EQ(word(400 - 256), bit) << "acknowledge";
+    EXPECT_EQ(word(401 - 256), 0U) << "busy";
+  }
+  void clear_order() const {
     EXPECT_EQ(ask(line_, {6, 1, 320 - 256, 0, 0}).size(), 5U);
+    EXPECT_EQ(word(400 - 256), 0U) << "acknowledge goes off with the bit";
+  }
+
+  /// Asks for the pose and waits for the result: the registers 424 to 463.
+  [[nodiscard]] Bytes ask_for_pose() const {
+    order(kPoseBit);
+    Bytes answer = ask(line_, {3, 1, 424 - 256, 0, 40});
+    clear_order();
     EXPECT_EQ(word(424 - 256), 0U) << "gone once its bit is cleared";
     answer.resize(82);
     return answer;
@@ -85,10 +101,7 @@ class RobotPose : public ::testing::Test {
   std::unique_ptr<drivers::SimulatedWorld> world_ = std::make_unique<drivers::SimulatedWorld>();
 };
 
-TEST_F(RobotPose, TheCorrectionBringsTheAxisThroughTheTubeInTheToolsFrame) {
-  ASSERT_NE(box_.wait_for("\"state\":\"tracking\"", std::chrono::seconds(20)).find("\"tracking\""),
-            std::string::npos);
-
+TEST_F(RobotCommands, TheCorrectionBringsTheAxisThroughTheTubeInTheToolsFrame) {
   Bytes told = ask_for_pose();
   for (int i = 0; i < 20 && told[3] == kRefused && told[5] == kMoving; ++i) {
     told = ask_for_pose();  // a track that has just begun does not know yet that it is at rest
@@ -118,6 +131,45 @@ TEST_F(RobotPose, TheCorrectionBringsTheAxisThroughTheTubeInTheToolsFrame) {
   EXPECT_LT((move - wanted(seen)).norm(), 0.05) << move.transpose();
   EXPECT_LT((move - wanted(world_->truth_of(60).T_sheet_tool)).norm(), 0.05) << move.transpose();
   EXPECT_GT(move.norm(), 1.0) << "there was something to correct";
+}
+
+TEST_F(RobotCommands, EachResultStaysUntilItsBitIsCleared) {
+  // command_id 9, and the place 318, 190 in the picture, that of the tube the tool is under.
+  ASSERT_EQ(ask(line_, {16,   1,    66,   0, 8, 16,   0,    0, 0, 9,    0xFF,
+                        0xFF, 0xFF, 0xFF, 0, 4, 0xDA, 0x30, 0, 2, 0xE6, 0x30})
+                .size(),
+            5U);
+  order(kPickBit);
+  const Bytes pick = ask(line_, {4, 1, 408 - 256, 0, 12});
+  ASSERT_EQ(pick.size(), 26U);
+  EXPECT_EQ(pick[3], 1) << "pick_result";
+  EXPECT_EQ(long_at(pick, 6), 9U) << "pick_id";
+  EXPECT_EQ(long_at(pick, 10), 318'000U) << "the place, sent back";
+  EXPECT_EQ(long_at(pick, 18), 40U);
+  EXPECT_EQ(long_at(pick, 22), 60U);
+  EXPECT_EQ(ask(line_, {4, 1, 408 - 256, 0, 12}), pick) << "as often as it is read";
+  clear_order();
+  EXPECT_EQ(word(408 - 256), 0U);
+
+  ASSERT_EQ(ask(line_, {6, 1, 330 - 256, 3, 0xB6}).size(), 5U);  // 950 permille
+  order(kLampBit);
+  EXPECT_EQ(word(420 - 256), 1U) << "lamp_result";
+  EXPECT_EQ(word(421 - 256), 950U) << "lamp_taken";
+  clear_order();
+  for (int i = 0; i < 100 && word(504 - 256) != 950; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_EQ(word(504 - 256), 950U) << "lamp_now";
+
+  // A claim of (40, 60), its verdict, and nothing of it once it is acknowledged.
+  ASSERT_EQ(ask(line_, {23, 0, 200, 0, 24, 1, 44, 0, 8,  16, 0, 0, 0,
+                        7,  0, 0,   0, 40, 0, 0,  0, 60, 0,  0, 0, 1})
+                .size(),
+            50U);
+  EXPECT_EQ(ask(line_, {3, 0, 204, 0, 1}).at(3) & 1, 1) << "a verdict is there";
+  order(kAcknowledgeBit);
+  clear_order();
+  EXPECT_EQ(ask(line_, {3, 0, 204, 0, 2}), (Bytes{3, 4, 0, 0, 0, 0})) << "none";
 }
 
 }  // namespace
