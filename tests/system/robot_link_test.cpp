@@ -171,10 +171,10 @@ TEST_F(RobotLinkSystem, AnswersOverASerialLineToo) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// One register, by mbpoll.
-std::string polled(int port, const std::string& address) {
+/// Registers, by mbpoll.
+std::string polled(int port, const std::string& address, const std::string& count = "1") {
   return run_program("/usr/bin/mbpoll", {"-m", "tcp", "-p", std::to_string(port), "-0", "-1", "-q",
-                                         "-t", "4", "-r", address, "-c", "1", "127.0.0.1"})
+                                         "-t", "4", "-r", address, "-c", count, "127.0.0.1"})
       .out;
 }
 
@@ -190,6 +190,8 @@ TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNot
   ASSERT_TRUE(has(before.out, " AGREE tube 40,60 ")) << before.out << before.err;
   EXPECT_TRUE(has(polled_alignment(port), "[145]: \t1")) << polled_alignment(port);
   EXPECT_TRUE(has(polled(port, "501"), "[501]: \t1")) << "camera_health: well";
+  EXPECT_TRUE(has(polled(port, "1"), "[1]: \t3")) << "camera_id and tool_id are known";
+  const std::string camera_and_tool = polled(port, "10", "4");
   box.signal(SIGKILL);
   ASSERT_EQ(box.wait_for_end(kLong), -1);
 
@@ -202,6 +204,7 @@ TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNot
     EXPECT_TRUE(has(polled_alignment(port), "[145]: \t0"));
     std::this_thread::sleep_for(milliseconds(50));
   }
+  EXPECT_EQ(polled(port, "10", "4"), camera_and_tool) << "the same settings";
   const Answered after = run_robot(address(port), "1");
   EXPECT_TRUE(has(first_line(after.out), ", tube -, not vouched for")) << after.out;
   EXPECT_NE(first_line(after.out), first_line(before.out)) << "the boot number is another";
@@ -212,11 +215,22 @@ TEST_F(RobotLinkSystem, AKilledBoxComesBackWithAnotherBootNumberAndVouchesForNot
 TEST_F(RobotLinkSystem, TheRobotReadsThatTheSourceHasEnded) {
   Daemon box;
   const int port = free_port();
-  box.write_settings("at_end = \"end\"\n" + tcp_link(port));
+  box.write_settings("at_end = \"end\"\nscript = true\n" + tcp_link(port));
   ASSERT_TRUE(box.start_and_wait()) << box.said();
 
   ASSERT_TRUE(has(box.wait_for("\"state\":\"ended\"", kLong), "\"ended\"")) << box.said();
 
+  // judged_fields stands still, and no tube is named or vouched for.
+  std::this_thread::sleep_for(milliseconds(150));
+  const std::string judged = polled(port, "109");
+  EXPECT_FALSE(has(judged, "[109]: \t0\n")) << "it had tracked";
+  const std::string valid = polled(port, "104");
+  const std::size_t at = valid.find("[104]: \t");
+  ASSERT_NE(at, std::string::npos) << valid;
+  constexpr int kPlaces = 0b11111000;  // primary tube, tube, axis, margin, velocity
+  EXPECT_EQ(std::stoi(valid.substr(at + 8)) & kPlaces, 0) << valid;
+  EXPECT_TRUE(has(polled_alignment(port), "[145]: \t0"));
+  EXPECT_EQ(polled(port, "109"), judged);
   // camera_health: failed; lamp_mode_now: nobody dims it.
   EXPECT_TRUE(has(polled(port, "501"), "[501]: \t2")) << polled(port, "501");
   EXPECT_TRUE(has(polled(port, "505"), "[505]: \t0")) << polled(port, "505");
