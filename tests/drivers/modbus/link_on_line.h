@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -47,9 +48,23 @@ class LinkOnLine : public testing::Test {
 
   std::uint32_t counter(drivers::Register name) { return counter_on(line_, name); }
   void expect_answer() { EXPECT_EQ(ask(line_, kReadMark), kMark); }
+  /// Sends what is no request to this unit and waits until the link has counted it: where others
+  /// delay the link, the next frame would else come before the silence that ends this one.
   void expect_silence(const Bytes& frame) {
+    const std::uint32_t before = disturbances();
     line_.send(frame);
-    EXPECT_EQ(line_.receive(std::chrono::milliseconds(30)), Bytes());
+    for (int i = 0; i < 2000 && disturbances() == before; ++i) {
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    EXPECT_NE(disturbances(), before) << "nothing was counted";
+    EXPECT_EQ(line_.receive(std::chrono::milliseconds(10)), Bytes());
+  }
+  [[nodiscard]] std::uint32_t disturbances() const {
+    drivers::LinkCounters now;
+    while (!link_.counters(now)) {
+      std::this_thread::yield();
+    }
+    return now.crc_errors + now.cut_frames + now.other_units + now.broadcasts + now.stray_bytes;
   }
 
   Pty line_;
