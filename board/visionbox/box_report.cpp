@@ -50,6 +50,7 @@ void add_source(JsonLine& line, const BoxReport& report) {
   line.add_printed("field_ms", decimal(report.span.count(), 1'000'000, 3));
   line.add_printed("fields_per_s", rate_text(report.fields_per_s));
   line.add("passes", report.passes).add("failures", report.failures);
+  line.add("made_late", report.made_late);
   line.add("errors", report.tracking.source_errors).close();
 }
 
@@ -192,6 +193,9 @@ std::string status_text(const BoxReport& report) {
                      " fields a second";
   if (report.failures > 0) {
     text += ", failed " + std::to_string(report.failures) + " times";
+  }
+  if (report.made_late > 0) {
+    text += ", " + std::to_string(report.made_late) + " made too late";
   }
   text += "\ntracking  " + sighting_text(tracking.sighting);
   text += "\nfields    " + std::to_string(tracking.counters.fields) + ", of which " +

@@ -24,6 +24,7 @@ struct BoxReport {
   core::FieldTime span{0};  ///< from one field to the next, as the source says
   std::int64_t passes = 0;
   std::int64_t failures = 0;
+  std::int64_t made_late = 0;  ///< fields that the source made after their instant
 
   std::string_view link_kind;
   LinkReport link;

@@ -156,8 +156,7 @@ core::Result<void> load_box_settings(drivers::TextFiles& files, const std::strin
   core::Result<void> scenario;
   const bool simulated = box.source.kind == SourceKind::kSimulated;
   if (simulated && !box.source.scenario.empty()) {
-    scenario =
-        drivers::load_scenario(files, box.source.scenario, {-1, true}, box.scenario, of_scenario);
+    scenario = drivers::load_scenario(files, box.source.scenario, {}, box.scenario, of_scenario);
   }
   if (document.problems().empty() && scenario) {
     check_memory(document, box);

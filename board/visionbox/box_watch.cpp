@@ -51,6 +51,11 @@ void BoxWatch::look(const BoxReport& report) {
       tell_(std::to_string(report.tracking.late - late_) + " sightings came after the deadline");
       late_ = report.tracking.late;
     }
+    if (report.made_late > made_late_) {
+      tell_("source: made " + std::to_string(report.made_late - made_late_) +
+            " fields after their instant");
+      made_late_ = report.made_late;
+    }
   }
 }
 

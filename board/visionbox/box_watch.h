@@ -25,6 +25,7 @@ class BoxWatch {
   MonotonicTime counted_at_{0};
   std::int64_t counted_ = 0;
   std::int64_t late_ = 0;
+  std::int64_t made_late_ = 0;
   std::optional<SourceState> source_;
   core::TrackState state_ = core::TrackState::kWaiting;
   core::Reason reason_ = core::Reason::kNoStart;

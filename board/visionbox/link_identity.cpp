@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "board/box/version.h"
+#include "drivers/settings/session_text.h"
 
 namespace tubesight::board {
 namespace {
@@ -49,10 +50,20 @@ std::int32_t draw_boot_number() {
   return number == 0 ? 1 : number;
 }
 
+std::int32_t calibration_id(std::string_view canonical) {
+  std::uint32_t hash = 2'166'136'261U;
+  for (const char c : canonical) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 16'777'619U;
+  }
+  return static_cast<std::int32_t>(hash & 0x7FFF'FFFFU);
+}
+
 drivers::LinkIdentity link_identity(const core::SessionSettings& session) {
   drivers::LinkIdentity identity;
   identity.product_version = version_number(program_version());
   identity.boot = draw_boot_number();
+  identity.camera_id = calibration_id(drivers::camera_text(session.camera));
+  identity.tool_id = calibration_id(drivers::tool_text(session.tool));
   identity.window_px = session.start.window_px;
   identity.optimum_px = session.start.optimum_px;
   return identity;

@@ -14,7 +14,12 @@ namespace tubesight::board {
 /// A number of this start of the box that the one before did not have; never 0.
 [[nodiscard]] std::int32_t draw_boot_number();
 
-/// What the box says of itself to the robot. Calibrations have no identities yet.
+/// Identity of a calibration: the digest of its parameters in their canonical form (FNV-1a of 32
+/// bits, the uppermost left out). Never negative, for who prints it.
+[[nodiscard]] std::int32_t calibration_id(std::string_view canonical);
+
+/// What the box says of itself to the robot. Camera and tool are those that the session is told, by
+/// what stands in the settings; the base is in no setting, so it has no identity.
 [[nodiscard]] drivers::LinkIdentity link_identity(const core::SessionSettings& session);
 
 }  // namespace tubesight::board

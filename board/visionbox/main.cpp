@@ -17,6 +17,7 @@
 #include "board/visionbox/box_watch.h"
 #include "board/visionbox/control_desk.h"
 #include "board/visionbox/log.h"
+#include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/vision_box.h"
 #include "drivers/control/control_server.h"
 
@@ -27,7 +28,8 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongInput = 2;
 
-/// SIGTERM and SIGINT as a descriptor. Blocked before any thread runs, so that none is hit.
+/// SIGTERM and SIGINT, and those of a terminal that is closed, as a descriptor. Blocked before any
+/// thread runs, so that none is hit.
 class EndSignals {
  public:
   EndSignals() {
@@ -35,6 +37,8 @@ class EndSignals {
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGHUP);
+    sigaddset(&signals, SIGQUIT);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   }
@@ -126,8 +130,11 @@ int run_program(int argc, const char* const* argv) {
 }  // namespace tubesight::board
 
 int main(int argc, char** argv) {
-  // A client that goes away is told as a failed write, not by the end of the program.
+  // A client that goes away, and a file that may grow no more, are told as a failed write, not by
+  // the end of the program.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  tubesight::board::install_panic_hooks();
   try {
     return tubesight::board::run_program(argc, argv);
   } catch (const std::exception& problem) {

@@ -115,6 +115,7 @@ Result<void> PlayedSource::play_once() {
       return made;
     }
     fill(played, shift, slots_[index]);
+    made_late_ += monotonic_now() > clock_.monotonic(slots_[index].field.mid_exposure) ? 1 : 0;
     static_cast<void>(filled_.try_push(index));  // as many places as slots
     state_ = SourceState::kPlaying;
     ++delivered_;

@@ -78,6 +78,8 @@ class PlayedSource final : public hal::FrameGrabber {
   /// Times that it was played from its beginning, and times that it failed.
   [[nodiscard]] std::int64_t passes() const { return passes_.load(); }
   [[nodiscard]] std::int64_t failures() const { return failures_.load(); }
+  /// Fields that were made after their instant: the machine is too slow to play them, or busy.
+  [[nodiscard]] std::int64_t made_late() const { return made_late_.load(); }
   /// Events of the script that found no room.
   [[nodiscard]] std::int64_t unsaid() const { return unsaid_; }
 
@@ -131,6 +133,7 @@ class PlayedSource final : public hal::FrameGrabber {
   std::atomic<std::int64_t> delivered_{0};
   std::atomic<std::int64_t> passes_{0};
   std::atomic<std::int64_t> failures_{0};
+  std::atomic<std::int64_t> made_late_{0};
   std::atomic<std::int32_t> lamp_permille_{core::kFullLamp_permille};
   // Of the source's thread.
   std::optional<std::uint32_t> spare_;  ///< a slot for which there was no field

@@ -151,6 +151,7 @@ BoxReport VisionBox::report() const {
   report.span = source_.span();
   report.passes = source_.passes();
   report.failures = source_.failures();
+  report.made_late = source_.made_late();
   report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();

@@ -13,6 +13,7 @@
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/field_player.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/played_source.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
@@ -80,7 +81,8 @@ class VisionBox {
 
   std::unique_ptr<FieldPlayer> player_;
   PlayedSource source_;
-  PlayedDimmer dimmer_{source_};
+  PlayedDimmer lamp_{source_};
+  PanicDimmer dimmer_{lamp_};
 
   drivers::SocketStation socket_station_;
   ScriptedLink scripted_link_{source_};

@@ -118,6 +118,7 @@ def main(line, seconds, rate=20.0):
     print(f"fields {number(health, 6)}, missing {number(health, 8)}")
 
 
-if len(sys.argv) < 3:
-    sys.exit(__doc__)
-main(sys.argv[1], *map(float, sys.argv[2:]))
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(sys.argv[1], *map(float, sys.argv[2:]))

@@ -1,6 +1,7 @@
 #include "drivers/modbus/dialogue.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -80,7 +81,7 @@ constexpr std::array kCommands{CommandBit::kStart, CommandBit::kPick, CommandBit
 }  // namespace
 
 Dialogue::Dialogue(WordOrder order, LinkState& state, Outbox& outbox)
-    : state_(&state), outbox_(&outbox), image_(order) {
+    : state_(&state), outbox_(outbox), image_(order) {
   reset();
 }
 
@@ -154,7 +155,7 @@ Refusal Dialogue::take_claim(RegisterImage& next, FieldTime arrival) {
   if (commit == 0) {
     return Refusal::kNone;
   }
-  if (!outbox_->has_room(1)) {
+  if (!outbox_.has_room(1, OutboxShare::kMostClaims)) {
     return Refusal::kBusy;
   }
   claim_ = {};
@@ -163,7 +164,7 @@ Refusal Dialogue::take_claim(RegisterImage& next, FieldTime arrival) {
   claim_.taken = arrival;
   claim_.at = arrival - std::chrono::milliseconds(next.get(kClaimAge));
   claim_.reply.claimed = {next.get(kClaimRow), next.get(kClaimColumn)};
-  claim_.ticket = outbox_->send(core::Claim{claim_.reply.claimed}, claim_.id, claim_.at);
+  claim_.ticket = outbox_.send(core::Claim{claim_.reply.claimed}, claim_.id, claim_.at);
   verdict_sequence_ = verdict_sequence_ == UINT32_MAX ? 1 : verdict_sequence_ + 1;
   next.set(kClaimAge, 0);
   next.set(kClaimCommit, 0);
@@ -177,7 +178,8 @@ Refusal Dialogue::take_commands(RegisterImage& next, FieldTime arrival) {
   if (!is_sound(next, begun)) {
     return Refusal::kIllegalValue;
   }
-  if (begun != 0 && !outbox_->has_room(kCommandBits)) {
+  if (begun != 0 && !outbox_.has_room(std::popcount(static_cast<std::uint32_t>(begun)),
+                                      OutboxShare::kMostEvents)) {
     return Refusal::kBusy;
   }
   for (const CommandBit command : kCommands) {
@@ -208,15 +210,15 @@ void Dialogue::begin(CommandBit command, RegisterImage& next, FieldTime arrival)
       next.set(kPickId, id);
       next.set(kPickAtU, next.get(kPickU));
       next.set(kPickAtV, next.get(kPickV));
-      ticket = outbox_->send(core::Pick{place(next, kPickU), seen_field(next)}, id, arrival);
+      ticket = outbox_.send(core::Pick{place(next, kPickU), seen_field(next)}, id, arrival);
       break;
     case CommandBit::kLamp:
       next.set(kLampId, id);
-      ticket = outbox_->send(core::LampCommand{next.get(kLampLevel)}, id, arrival);
+      ticket = outbox_.send(core::LampCommand{next.get(kLampLevel)}, id, arrival);
       break;
     case CommandBit::kPose:
       next.set(kPoseId, id);
-      ticket = outbox_->send(core::PoseRequest{}, id, arrival);
+      ticket = outbox_.send(core::PoseRequest{}, id, arrival);
       break;
     case CommandBit::kAcknowledge:
       claim_ = {};
@@ -242,7 +244,7 @@ void Dialogue::begin_start(RegisterImage& next, FieldTime arrival) {
   start.seen_field = seen_field(next);
   start.confirmed = next.get(kStartConfirm) == 1;
   tickets_[static_cast<std::size_t>(CommandBit::kStart)] =
-      outbox_->send(start, next.get(kCommandId), arrival);
+      outbox_.send(start, next.get(kCommandId), arrival);
 }
 
 /// The session has one window, that of its settings: a robot that wants another must hear of it.

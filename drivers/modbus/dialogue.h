@@ -91,7 +91,7 @@ class Dialogue {
   void encode_claim(bool told);
 
   LinkState* state_;
-  Outbox* outbox_;
+  OutboxShare outbox_;
   RegisterImage image_;
   ClaimState claim_;
   std::uint32_t verdict_sequence_ = 0;

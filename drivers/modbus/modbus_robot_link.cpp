@@ -12,12 +12,15 @@ using core::Result;
 using core::Unexpected;
 
 /// The thread inherits the loop's real-time priority and the program's signals, and may have
-/// neither.
+/// neither; but a mistake's own signals, when they are blocked, kill without any handler.
 void be_ordinary() {
   const sched_param ordinary{};
   static_cast<void>(sched_setscheduler(0, SCHED_OTHER, &ordinary));
   sigset_t all;
   sigfillset(&all);
+  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) {
+    sigdelset(&all, deadly);
+  }
   static_cast<void>(pthread_sigmask(SIG_BLOCK, &all, nullptr));
 }
 

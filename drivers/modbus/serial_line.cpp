@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <modbus/modbus.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 
 namespace tubesight::drivers {
@@ -38,6 +39,16 @@ bool set_rs485(int descriptor) {
   return ioctl(descriptor, TIOCSRS485, &mode) == 0;
 }
 
+/// Two programs on one line answer the same requests into each other. TIOCEXCL would not keep root
+/// out; whoever locks as well is kept out by this (boxes, pyserial's `exclusive`).
+bool take_for_itself(int descriptor) {
+  if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+    return true;
+  }
+  errno = errno == EWOULDBLOCK ? EBUSY : errno;
+  return false;
+}
+
 /// USB adapters hold back what they got, some for 16 ms, unless told not to. Others know no such
 /// thing, so that a refusal means nothing.
 void ask_for_low_latency(int descriptor) {
@@ -66,8 +77,11 @@ Result<void> SerialLine::open(const SerialSettings& settings) {
   }
   descriptor_ = modbus_get_socket(context);
   const int flags = fcntl(descriptor_, F_GETFL);
-  if (flags < 0 || fcntl(descriptor_, F_SETFL, flags | O_NONBLOCK) < 0) {
+  if (!take_for_itself(descriptor_) || flags < 0 ||
+      fcntl(descriptor_, F_SETFL, flags | O_NONBLOCK) < 0) {
+    const int cause = errno;
     close();
+    errno = cause;
     return Unexpected(Error::kIo);
   }
   if (settings.rs485 && !set_rs485(descriptor_)) {

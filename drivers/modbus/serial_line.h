@@ -27,8 +27,8 @@ class SerialLine {
   ~SerialLine() { close(); }
 
   /// Opens the device, without waiting; needs it closed. It does not become the controlling
-  /// terminal. kIo: it cannot be opened or set so; kUnsupported: its driver cannot switch the
-  /// direction of RS-485; errno says more.
+  /// terminal. kIo: it cannot be opened or set so, or another program has locked it; kUnsupported:
+  /// its driver cannot switch the direction of RS-485; errno says more.
   [[nodiscard]] core::Result<void> open(const SerialSettings& settings);
   void close();
 

@@ -41,6 +41,18 @@ void write_limits(TomlWriter& toml, const core::SessionSettings& settings) {
   write_keys(toml, kVerificationKeys, settings.verification);
 }
 
+std::string camera_text(const core::CameraSettings& camera) {
+  TomlWriter toml(TomlManner::kPlain);
+  write_keys(toml, kCameraKeys, camera);
+  return toml.take();
+}
+
+std::string tool_text(const core::ToolSettings& tool) {
+  TomlWriter toml(TomlManner::kPlain);
+  write_keys(toml, kToolKeys, tool);
+  return toml.take();
+}
+
 std::string session_text(const core::SessionSettings& settings) {
   TomlWriter toml(TomlManner::kPlain);
   write_plant(toml, settings);

@@ -19,6 +19,11 @@ void write_start(TomlWriter& toml, const core::StartSettings& start);
 /// `[motion]`, `[edges]` and `[verification]`: what the box goes by.
 void write_limits(TomlWriter& toml, const core::SessionSettings& settings);
 
+/// The keys of `[camera]` and of `[tool]` as they stand in a session's file, a line each: the
+/// canonical form that identities of calibrations are made of.
+[[nodiscard]] std::string camera_text(const core::CameraSettings& camera);
+[[nodiscard]] std::string tool_text(const core::ToolSettings& tool);
+
 /// A session's file: all of these, `[start]` last and only where there are clicks.
 [[nodiscard]] std::string session_text(const core::SessionSettings& settings);
 

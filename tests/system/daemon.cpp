@@ -76,11 +76,15 @@ void Daemon::write_settings(const std::string& more) const {
                                 recording + "recording.y4m.xz\"\n" + more);
 }
 
-void Daemon::write_simulated_settings(const std::string& more) const {
+void Daemon::write_simulated_settings(const std::string& more, std::string scenario) const {
+  if (scenario.empty()) {
+    scenario = folder_.write("plant.toml", "include = [\"" TUBESIGHT_SOURCE_DIR
+                                           "/docs/examples/steam-generator.toml\"]\n"
+                                           "[video]\nwindow_margin_px = 24\n");
+  }
   folder_.write("box.toml",
                 "[control]\nsocket = \"box\"\n[source]\nkind = \"simulated\"\nscenario = \"" +
-                    std::string(TUBESIGHT_SOURCE_DIR) + "/docs/examples/steam-generator.toml\"\n" +
-                    more);
+                    scenario + "\"\n" + more);
 }
 
 void Daemon::start() {

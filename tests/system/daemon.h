@@ -32,13 +32,15 @@ class Daemon {
   /// A box on the shipped recording; `more` are lines of [source].
   void write_settings(const std::string& more) const;
 
-  /// A box on the scenario of the first run in docs/.
-  void write_simulated_settings(const std::string& more) const;
+  /// A box on the scenario of the first run in docs/ with the search window alone drawn, which is
+  /// cheap and shows no poses; or on another one, as it stands.
+  void write_simulated_settings(const std::string& more, std::string scenario = {}) const;
 
   void start();
   /// Starts and waits until it answers.
   [[nodiscard]] bool start_and_wait();
   void signal(int number) const;
+  [[nodiscard]] pid_t process() const { return process_; }
   /// Waits for its end; the exit status, -1 for a signal, -2 when it goes on.
   [[nodiscard]] int wait_for_end(std::chrono::milliseconds timeout);
 

@@ -94,6 +94,30 @@ TEST(DaemonSystem, AKilledBoxLeavesASocketBehindAndItsSuccessorWaitsForAStart) {
   EXPECT_TRUE(has(box.wait_for("\"tracking\":", kLong), "\"state\":\"waiting\""));
 }
 
+TEST(DaemonSystem, ABoxThatDiesOfAMistakeLeavesTheLampDarkAndSaysWhy) {
+  Daemon box;
+  box.write_simulated_settings("script = true\n");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+  ASSERT_TRUE(has(box.wait_for("\"state\":\"tracking\"", kLong), "\"tracking\""));
+
+  box.signal(SIGSEGV);
+
+  EXPECT_EQ(box.wait_for_end(kLong), -1) << "whoever watches sees a signal";
+  EXPECT_TRUE(has(box.said(), "tubesightd: panic: SIGSEGV: the lamp is dark\n")) << box.said();
+  EXPECT_TRUE(box.start_and_wait()) << box.said();
+}
+
+TEST(DaemonSystem, EndsWithTheTerminalThatItWasStartedIn) {
+  Daemon box;
+  box.write_settings("");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+
+  box.signal(SIGHUP);
+
+  EXPECT_EQ(box.wait_for_end(kLong), 0) << box.said();
+  EXPECT_TRUE(has(box.said(), "tubesightd: stopped\n")) << "the lamp went dark: " << box.said();
+}
+
 TEST(DaemonSystem, GoesOnWithoutFieldsWhenTheRecordingHasEnded) {
   Daemon box;
   box.write_settings("at_end = \"end\"\nscript = true\n");

@@ -35,6 +35,9 @@ class FakePlayer final : public FieldPlayer {
     if (next_ == fields_) {
       return core::Unexpected(end_);
     }
+    if (next_ == slow_) {
+      sleep_until(monotonic_now() + 8 * kSpan);
+    }
     pixels_.fill(static_cast<std::uint8_t>(next_));
     out.field = {};
     out.field.pixels = {pixels_.data(), kSide, kSide, kSide, 0, 1};
@@ -57,6 +60,7 @@ class FakePlayer final : public FieldPlayer {
 
   int fields_ = 5;
   int fail_starts_ = 0;
+  int slow_ = -1;  ///< one that takes long to make
   Error end_ = Error::kEndOfData;
 
  private:
@@ -150,6 +154,23 @@ TEST_F(PlayedSourceTest, BeginsAnewAfterAGapThatNoTrackOutlives) {
   EXPECT_GT(first.sequence, last.sequence + 10);
   EXPECT_EQ(source.passes(), 2);
   EXPECT_EQ(source.failures(), 0);
+}
+
+TEST_F(PlayedSourceTest, CountsTheFieldsThatItMadeTooLate) {
+  player_.fields_ = 40;
+  player_.slow_ = 30;
+  PlayedSource& source = make(false);
+  ASSERT_TRUE(source.start());
+  core::Field field;
+  std::uint8_t grey = 0;
+  std::int64_t before = 0;
+  for (int i = 0; i < 40; ++i) {
+    before = i == 28 ? source.made_late() : before;
+    ASSERT_TRUE(grab(field, grey));
+  }
+
+  EXPECT_GE(source.made_late() - before, 1);
+  EXPECT_LT(before, 28) << "not all of them";
 }
 
 TEST_F(PlayedSourceTest, OpensAgainWhatFailedAndCountsIt) {

@@ -175,7 +175,7 @@ TEST(DialogueClaim, RefusesWhatItCannotTake) {
   LinkBench bench;
   EXPECT_EQ(claim(bench, 1, {1, 1}, 10'001), Refusal::kIllegalValue);
   EXPECT_EQ(bench.set(kClaimCommit, 2), Refusal::kIllegalValue);
-  for (std::uint32_t i = 0; i < EventQueue::capacity(); ++i) {
+  for (std::int32_t i = 0; i < OutboxShare::kMostClaims; ++i) {
     ASSERT_EQ(claim(bench, 1, {1, 1}), Refusal::kNone);
   }
   EXPECT_EQ(claim(bench, 2, {1, 1}), Refusal::kBusy);

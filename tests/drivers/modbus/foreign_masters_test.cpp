@@ -69,6 +69,20 @@ TEST_F(ForeignMasters, MbpollReadsAndWrites) {
   EXPECT_NE(level.find("[330]: \t640"), std::string::npos) << level;
 }
 
+TEST_F(ForeignMasters, ADeadUnitOnTheLineTimesOutAndTheBoxAnswersAsBefore) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string dead =
+        output_of("{ mbpoll -m rtu -b 115200 -P none -a 5 -0 -1 -q -o 0.05 -t 4:hex -r 2 -c 2 " +
+                  pair_.robot.device() + "; true; }");
+    EXPECT_NE(dead.find("timed out"), std::string::npos) << dead;
+    const std::string own = mbpoll("-t 4:hex -r 2 -c 2");
+    EXPECT_NE(own.find("[2]: \t0x0102"), std::string::npos) << own;
+  }
+
+  const std::string others = mbpoll("-t 4 -r 523 -c 1");
+  EXPECT_NE(others.find("[523]: \t3"), std::string::npos) << others;
+}
+
 TEST_F(ForeignMasters, PymodbusPollsAndClaims) {
   const tests::AnsweringLoop loop(link_, tests::vouch, [this] { show_sighting(); });
 

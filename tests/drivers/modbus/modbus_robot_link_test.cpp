@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tests/drivers/modbus/link_bench.h"
+#include "tests/drivers/modbus/link_on_line.h"
 #include "tests/drivers/modbus/serial_robot.h"
 #include "tests/hal/robot_link_contract.h"
 #include "tests/support/temporary_folder.h"
@@ -13,19 +14,14 @@ namespace {
 
 using tests::ask;
 using tests::Bytes;
+using tests::claim;
+using tests::kMark;
+using tests::kReadMark;
 using tests::long_at;
 using tests::Pty;
 using tests::rtu_frame;
+using tests::settings_for;
 using namespace std::chrono_literals;
-
-ModbusSettings settings_for(const std::string& device) {
-  ModbusSettings settings;
-  settings.serial.line.device = device;
-  settings.serial.line.baud = 115'200;
-  settings.serial.line.parity = SerialParity::kNone;
-  settings.serial.unit = 17;
-  return settings;
-}
 
 /// A robot that says by registers what the suite wants said.
 class ModbusMaker {
@@ -120,37 +116,7 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Modbus, RobotLinkContract, drivers::ModbusMaker);
 namespace tubesight::drivers {
 namespace {
 
-const Bytes kReadMark{3, 0, 2, 0, 2};
-const Bytes kMark{3, 4, 1, 2, 3, 4};
-
-/// A claim of (12, -7) with its verdict, function 23.
-Bytes claim(std::uint8_t id, std::uint8_t row = 12) {
-  return {23, 0, 200, 0, 24,  1,    44,   0,    8,    16, 0, 0, 0,
-          id, 0, 0,   0, row, 0xFF, 0xFF, 0xFF, 0xF9, 0,  0, 0, 1};
-}
-
-/// A link on a line, with a robot at its other end.
-class ModbusRobotLinkTest : public testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(link_.start()); }
-
-  /// A counter of the block health.
-  std::uint32_t counter(Register name) {
-    const auto address = row_of(name).address;
-    const Bytes answer = ask(line_, {3, static_cast<std::uint8_t>(address >> 8),
-                                     static_cast<std::uint8_t>(address), 0, 2});
-    return answer.size() == 6 ? long_at(answer, 2) : UINT32_MAX;
-  }
-  void expect_answer() { EXPECT_EQ(ask(line_, kReadMark), kMark); }
-  void expect_silence(const Bytes& frame) {
-    line_.send(frame);
-    EXPECT_EQ(line_.receive(30ms), Bytes());
-  }
-
-  Pty line_;
-  tests::SteadyClock clock_;
-  ModbusRobotLink link_{settings_for(line_.device()), tests::make_identity(), clock_};
-};
+using ModbusRobotLinkTest = tests::LinkOnLine;
 
 TEST_F(ModbusRobotLinkTest, AnswersWithinMilliseconds) {
   std::vector<std::chrono::nanoseconds> took;

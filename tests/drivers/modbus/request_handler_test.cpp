@@ -154,7 +154,7 @@ TEST(RequestHandler, RefusesValuesAndWritesNothingOfThem) {
 
 TEST(RequestHandler, SaysBusyWhenTheLoopDoesNotListen) {
   LinkBench bench;
-  for (std::uint32_t i = 0; i < EventQueue::capacity(); ++i) {
+  for (std::int32_t i = 0; i < OutboxShare::kMostClaims; ++i) {
     ASSERT_EQ(ask(bench, kClaimAndVerdict).outcome, Outcome::kWaits);
   }
 

@@ -117,6 +117,25 @@ TEST(SerialLine, IsClosedWhereRs485CannotBeSwitched) {
   EXPECT_TRUE(line.open(settings));
 }
 
+TEST(SerialLine, BelongsToOneProgramAtATime) {
+  const Pty pty;
+  uart = {};
+  SerialSettings settings = settings_for(pty);
+  settings.parity = drivers::SerialParity::kNone;
+  SerialLine first;
+  SerialLine second;
+  ASSERT_TRUE(first.open(settings));
+
+  const auto opened = second.open(settings);
+  const int cause = errno;
+
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error(), core::Error::kIo);
+  EXPECT_EQ(cause, EBUSY) << "so that it can be told";
+  first.close();
+  EXPECT_TRUE(second.open(settings));
+}
+
 TEST(SerialLine, AsksAdaptersNotToHoldBack) {
   const Pty pty;
   uart = {std::nullopt, serial_struct{}};
