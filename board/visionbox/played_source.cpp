@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <variant>
 
 #include "core/base/assert.h"
 
@@ -176,6 +177,10 @@ void PlayedSource::fill(const PlayedField& played, Shift& shift, Slot& slot) {
   slot.events = played.events;
   for (core::Event& event : slot.events) {
     event.at = event.at.value_or(played.field.mid_exposure) + shift.time;
+    auto* const start = std::get_if<core::Start>(&event.content);
+    if (start != nullptr && shift.time != core::FieldTime(0)) {
+      start->confirmed = true;  // a later pass: the tool is elsewhere without having gone there
+    }
   }
 }
 

@@ -68,6 +68,10 @@ void Session<S, Margin>::remember(Sighting& sighting) {
     ++judged_fields_;
     last_judged_ = sighting.time;
   }
+  if (sighting.state == TrackState::kLost &&
+      (sighting.reason == Reason::kMap || sighting.reason == Reason::kFieldOrder)) {
+    recent_.clear();  // the last fields' addresses are refuted, too
+  }
   sighting.judged_fields = judged_fields_;
   sighting.age = judged_fields_ > 0 ? sighting.time - last_judged_ : FieldTime(0);
   const verification::RecentField<S> field{sighting, tracker_.shown()};

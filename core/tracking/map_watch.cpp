@@ -12,21 +12,28 @@ MapWatch::Entry* MapWatch::find(TubeAddress address) {
 }
 
 void MapWatch::see(const SiteSightings& sites) {
+  for (Entry& entry : entries_) {
+    if (entry.score > 0 && ++entry.unseen >= kRemembered) {
+      entry = {};
+    }
+  }
   for (const TubeAddress address : sites.open) {
     Entry* entry = find(address);
     if (entry == nullptr) {
-      entry = std::find_if(entries_.begin(), entries_.end(),
-                           [](const Entry& each) { return each.score == 0; });
-      if (entry == entries_.end()) {
-        continue;  // as many as are open by now are more than enough
-      }
-      *entry = {address, 0};
+      // A free one, or the least that is known, and longest ago.
+      entry =
+          std::min_element(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+            return a.score != b.score ? a.score < b.score : a.unseen > b.unseen;
+          });
+      *entry = {address, 0, 0};
     }
     entry->score = static_cast<std::int8_t>(std::min<int>(entry->score + 1, kMost));
+    entry->unseen = 0;
   }
   for (const TubeAddress address : sites.closed) {
     if (Entry* const entry = find(address)) {
       --entry->score;
+      entry->unseen = 0;
     }
   }
 }

@@ -14,9 +14,10 @@ namespace tubesight::core::tracking {
 ///
 /// Counts the sites that should be closed and look like open tube-ends: three are too many, one or
 /// two may be a plug that fell out or a list that is out of date. A site counts after two fields
-/// more in which it looked open than closed. Holds eight addresses, more than it takes. Where fewer
-/// are in view, the pattern of all may still fit other addresses (fits_other_addresses()): asked in
-/// each eighth field, and believed when it says so twice in a row.
+/// more in which it looked open than closed, and while it was seen in one of the last sixty: a long
+/// way passes many. Holds eight addresses, more than it takes. Where fewer are in view, the pattern
+/// of all may still fit other addresses (fits_other_addresses()): asked in each eighth field, and
+/// believed when it says so twice in a row.
 class MapWatch {
  public:
   /// Of one field alone, a start's: enough where it shows as much.
@@ -53,18 +54,21 @@ class MapWatch {
   static constexpr std::int32_t kMostOpen = 3;
   static constexpr std::int8_t kOpen = 2;
   static constexpr std::int8_t kMost = 4;
+  static constexpr std::int8_t kRemembered = 60;  ///< fields
   static constexpr std::int32_t kAskEvery = 8;
   static constexpr std::int32_t kAnswers = 2;
 
   struct Entry {
     TubeAddress address{};
-    std::int8_t score = 0;  ///< 0: the entry is free
+    std::int8_t score = 0;   ///< 0: the entry is free
+    std::int8_t unseen = 0;  ///< fields since it was seen
 
     template <typename Self, typename Stream>
     static void transfer(Self& self, Stream& stream) {
-      auto& [tube, points] = self;
+      auto& [tube, points, fields_unseen] = self;
       stream(tube);
       stream.number(points, std::int8_t{0}, kMost);
+      stream.number(fields_unseen, std::int8_t{0}, kRemembered);
     }
   };
   [[nodiscard]] Entry* find(TubeAddress address);

@@ -49,6 +49,7 @@ class FakePlayer final : public FieldPlayer {
     if (next_ == 2) {
       core::Event event;
       event.id = 77;
+      event.content = core::Start{};
       EXPECT_TRUE(out.events.try_push_back(event));
     }
     ++next_;
@@ -227,6 +228,20 @@ TEST_F(PlayedSourceTest, HandsOutWhatIsSaidWithItsField) {
   EXPECT_EQ(source.next_said()->at, field.mid_exposure);
   source.take_said();
   EXPECT_EQ(source.next_said(), nullptr);
+}
+
+TEST_F(PlayedSourceTest, AScriptInsistsOnItsStartInLaterPassesAsTheToolIsSuddenlyElsewhere) {
+  PlayedSource& source = make(true);
+  ASSERT_TRUE(source.start());
+  core::Field field;
+  std::uint8_t grey = 0;
+  for (const bool confirmed : {false, true, true}) {
+    while (source.next_said() == nullptr) {
+      ASSERT_TRUE(grab(field, grey));
+    }
+    EXPECT_EQ(std::get<core::Start>(source.next_said()->content).confirmed, confirmed);
+    source.take_said();
+  }
 }
 
 TEST_F(PlayedSourceTest, ExposesInTheDimmersLight) {

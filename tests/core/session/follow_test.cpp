@@ -145,6 +145,7 @@ TEST_F(FollowFixed, FollowsTheAccelerationOfMotionToItsVeryLimit) {
   run_.settings->motion = {1600.0, 12000.0};
   run_.configure();
   for (int degrees = 0; degrees < 360; degrees += 30) {
+    run_.drop(10);  // the time to come back in
     run_.begin();
     const double x = std::cos(degrees * 3.14159265358979 / 180.0);
     const double y = std::sin(degrees * 3.14159265358979 / 180.0);
@@ -215,6 +216,13 @@ TEST_F(FollowFixed, IsDegradedWithTwoTubesLeftAndStillRight) {
   run_.settings->tubesheet.rows = {20, 23};
   run_.settings->tubesheet.columns = {10, 11};
   run_.configure();
+  for (std::int32_t row = 10; row < 32; ++row) {
+    for (std::int32_t column = 1; column < 21; ++column) {
+      if (row < 20 || row > 23 || column < 10 || column > 11) {
+        run_.sheet->look.flush_plugs.push_back({row, column});
+      }
+    }
+  }
   run_.begin();
   int two = 0;
   for (int field = 0; field < 200; ++field) {

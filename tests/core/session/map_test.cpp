@@ -99,6 +99,12 @@ TEST_F(MapOf, ATrackEndsWhereTheMapComesIntoViewAndRefutesIt) {
   }
   EXPECT_EQ(run_.sighting().state, TrackState::kLost);
   EXPECT_EQ(run_.sighting().reason, Reason::kMap);
+  // Nobody is told any more what the box said just before.
+  Event claim = tests::event_of(Claim{{20, 15}});
+  claim.at = run_.now - 2 * kFieldSpan;
+  run_.add(claim);
+  run_.step(moved(kOverTube, 6 * kPitch_mm));
+  EXPECT_EQ(content_of<ClaimReply>(run_.output().replies[0]).verdict, ClaimVerdict::kUnknown);
 }
 
 }  // namespace

@@ -31,12 +31,25 @@ TEST(MapWatch, ThreeSitesInTwoFieldsRefuteTheAddresses) {
 
 TEST(MapWatch, TheyNeedNotBeInOnePicture) {
   MapWatch watch;
-  for (const std::int32_t column : {1, 20, 40}) {
+  for (const std::int32_t column : {1, 5, 9}) {
     EXPECT_FALSE(watch.refuted());
     watch.see(sites({{1, column}}));
     watch.see(sites({{1, column}}));
   }
   EXPECT_TRUE(watch.refuted());
+}
+
+TEST(MapWatch, ErrorsOfAListThatAreFarApartAreNotAddedUp) {
+  MapWatch watch;
+  for (std::int32_t column = 0; column < 200; column += 20) {
+    for (int i = 0; i < 30; ++i) {
+      watch.see(sites({{1, column}, {3, column}}));
+      EXPECT_FALSE(watch.refuted());
+    }
+    for (int i = 0; i < 60; ++i) {
+      watch.see(sites({}));
+    }
+  }
 }
 
 TEST(MapWatch, TwoPlugsThatFellOutRefuteNothingHoweverLongTheyAreSeen) {
@@ -62,8 +75,9 @@ TEST(MapWatch, HasRoomForAsManyAsItTakes) {
     watch.see(sites({{row, 0}}));  // each once: none counts
   }
   EXPECT_FALSE(watch.refuted());
-  watch.see(sites({{0, 0}, {1, 0}, {2, 0}}));
-  EXPECT_TRUE(watch.refuted());
+  watch.see(sites({{50, 0}, {51, 0}, {52, 0}}));
+  watch.see(sites({{50, 0}, {51, 0}, {52, 0}}));
+  EXPECT_TRUE(watch.refuted()) << "those that were seen once make room";
 }
 
 TEST(MapWatch, AsksEachEighthFieldAndBelievesTwoAnswersInARow) {
