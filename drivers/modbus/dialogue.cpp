@@ -205,6 +205,7 @@ void Dialogue::begin(CommandBit command, RegisterImage& next, FieldTime arrival)
     case CommandBit::kStart:
       next.set(kStartId, id);
       begin_start(next, arrival);
+      next.set(kStartConfirm, 0);  // who insisted on this start did not insist on the next
       break;
     case CommandBit::kPick:
       next.set(kPickId, id);

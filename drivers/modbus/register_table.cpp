@@ -98,7 +98,7 @@ constexpr RegisterRow kTable[] = {
     {Register::kCommand, 1, 320, 1, "bits", "command",
      "bit 0: start, 1: pick, 2: lamp, 3: pose, 4: acknowledge; done when a bit goes from 0 to 1"},
     {Register::kStartConfirm, 1, 321, 1, "", "start_confirm",
-     "1: a person insists on the start against a warning"},
+     "1: a person insists on the start against a warning; 0 again after each start"},
     {Register::kCommandId, 2, 322, 1, "", "command_id", "sent back with the result"},
     {Register::kSeenField, 2, 324, 1, "", "seen_field",
      "number of the field in whose picture u and v were read; -1: the one that follows"},
