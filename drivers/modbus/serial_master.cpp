@@ -184,6 +184,9 @@ void SerialMaster::abandon() {
 void SerialMaster::finish() {
   if (auto answer = conversation_.finish(clock_->now())) {
     answer_ = answer;
+    if (framer_.waits() || echo_.holds()) {
+      abandon();  // the master speaks already, and would not hear it
+    }
     send();
   }
 }

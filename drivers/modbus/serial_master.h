@@ -41,7 +41,8 @@ class SerialMaster {
   /// Does what there is to do.
   void serve(const PollSet& poll);
   void hear(const core::Reply& reply, core::FieldTime now) { conversation_.hear(reply, now); }
-  /// Sends the answer that waited for a verdict, if it is there.
+  /// Sends the answer that waited for a verdict, if it is there and the line is silent; call
+  /// serve() before, so that what has come is known.
   void finish();
 
  private:
