@@ -155,7 +155,7 @@ Refusal Dialogue::take_claim(RegisterImage& next, FieldTime arrival) {
   if (commit == 0) {
     return Refusal::kNone;
   }
-  if (!outbox_.has_room(1, OutboxShare::kMostClaims)) {
+  if (refuses_claims_ || !outbox_.has_room(1, OutboxShare::kMostClaims)) {
     return Refusal::kBusy;
   }
   claim_ = {};

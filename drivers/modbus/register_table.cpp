@@ -195,7 +195,7 @@ constexpr RegisterRow kTable[] = {
     {Register::kBroadcasts, 2, 524, 1, "", "broadcasts", "requests to all units"},
     {Register::kStrayBytes, 2, 526, 1, "", "stray_bytes", "bytes that belong to no frame"},
     {Register::kDroppedEvents, 2, 528, 1, "", "dropped_events",
-     "requests refused because too many waited"},
+     "requests refused with exception 6"},
     {Register::kLateClaims, 2, 530, 1, "", "late_claims",
      "claims answered CANNOT SAY because the box did not answer in time"},
     {Register::kAbandonedAnswers, 2, 532, 1, "", "abandoned_answers",
