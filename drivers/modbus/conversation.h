@@ -36,6 +36,16 @@ class Conversation {
   [[nodiscard]] std::optional<ReadyAnswer> take(std::span<const std::uint8_t> request,
                                                 core::FieldTime arrival);
 
+  /// As take(), of a request that came while an answer waited, nobody knows when: a claim is
+  /// refused, as it would be judged at the wrong instant.
+  [[nodiscard]] std::optional<ReadyAnswer> take_late(std::span<const std::uint8_t> request,
+                                                     core::FieldTime now) {
+    dialogue_.refuse_claims(true);
+    auto answer = take(request, now);
+    dialogue_.refuse_claims(false);
+    return answer;
+  }
+
   void hear(const core::Reply& reply, core::FieldTime now) { dialogue_.hear(reply, now); }
 
   /// Whether an answer waits for a verdict.

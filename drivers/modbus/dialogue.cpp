@@ -155,7 +155,7 @@ Refusal Dialogue::take_claim(RegisterImage& next, FieldTime arrival) {
   if (commit == 0) {
     return Refusal::kNone;
   }
-  if (!outbox_.has_room(1, OutboxShare::kMostClaims)) {
+  if (refuses_claims_ || !outbox_.has_room(1, OutboxShare::kMostClaims)) {
     return Refusal::kBusy;
   }
   claim_ = {};
@@ -205,6 +205,7 @@ void Dialogue::begin(CommandBit command, RegisterImage& next, FieldTime arrival)
     case CommandBit::kStart:
       next.set(kStartId, id);
       begin_start(next, arrival);
+      next.set(kStartConfirm, 0);  // who insisted on this start did not insist on the next
       break;
     case CommandBit::kPick:
       next.set(kPickId, id);

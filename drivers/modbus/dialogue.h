@@ -21,7 +21,7 @@ enum class Refusal : std::uint8_t {
   kIllegalFunction = 1,
   kIllegalAddress = 2,
   kIllegalValue = 3,
-  kBusy = 6,  ///< too many requests wait for the loop: ask again
+  kBusy = 6,  ///< too many requests wait for the loop, or a claim came while one waited: ask again
 };
 
 /// Longest that a claim waits for its verdict: the field that judges it, 50 ms, and some; 55 ms
@@ -51,6 +51,9 @@ class Dialogue {
   /// Takes registers that arrived at an instant, and does what they command.
   [[nodiscard]] Refusal write(std::int32_t first, std::span<const std::uint16_t> words,
                               core::FieldTime arrival);
+
+  /// Until told otherwise claims are refused as kBusy: when they came is not known.
+  void refuse_claims(bool on) { refuses_claims_ = on; }
 
   /// Takes an answer of the box if it belongs to this dialogue; others leave it as it is.
   void hear(const core::Reply& reply, core::FieldTime now);
@@ -94,6 +97,7 @@ class Dialogue {
   OutboxShare outbox_;
   RegisterImage image_;
   ClaimState claim_;
+  bool refuses_claims_ = false;
   std::uint32_t verdict_sequence_ = 0;
   std::array<std::int64_t, kCommandBits> tickets_{};  ///< of the commands under way; 0: none
 };

@@ -44,8 +44,8 @@ void ModbusServer::run() {
   while (!exchange_->stopping.load()) {
     wait();
     take_news();
-    serial_.finish();
     serial_.serve(poll_);
+    serial_.finish();
     for (TcpMaster& master : masters_) {
       master.finish();
       master.serve(poll_);

@@ -107,7 +107,9 @@ Found RtuFramer::next() {
 bool RtuFramer::ends_frame(std::int32_t bytes) const {
   const bool ours = bytes_[0] == unit_ || bytes_[0] == kBroadcastUnit;
   const std::int32_t request = request_length(bytes_);
-  const std::int32_t answer = ours ? kNotYet : answer_length(bytes_);
+  // Of our own answers only exceptions can be told from requests.
+  const bool told = !ours || (bytes_[1] & kException) != 0;
+  const std::int32_t answer = told ? answer_length(bytes_) : kNotYet;
   if (request == kAnyLength && answer == kAnyLength) {
     return true;  // its check sum fits, and nothing else can tell; for us only a silence ends it
   }
@@ -118,7 +120,10 @@ bool RtuFramer::ends_frame(std::int32_t bytes) const {
 Found RtuFramer::deliver(std::int32_t bytes) {
   const std::uint8_t unit = bytes_[0];
   Found found = Found::kNothing;
-  if (unit == unit_) {
+  if (unit == unit_ && (bytes_[1] & kException) != 0) {
+    // An exception: our own that came back, or somebody else's under our unit.
+    counters_->stray_bytes += static_cast<std::uint32_t>(bytes);
+  } else if (unit == unit_) {
     ++counters_->requests;
     found = Found::kRequest;
   } else if (unit == kBroadcastUnit) {
@@ -161,7 +166,7 @@ Found RtuFramer::deliver_behind_noise() {
   const std::int32_t count = bytes_.size();
   for (std::int32_t noise = 1; noise <= kMostGlitches && noise + kShortest <= count; ++noise) {
     const auto frame = bytes_.view().subspan(static_cast<std::size_t>(noise));
-    if (frame[0] == unit_ && crc16(frame) == 0) {
+    if (frame[0] == unit_ && (frame[1] & kException) == 0 && crc16(frame) == 0) {
       counters_->stray_bytes += static_cast<std::uint32_t>(noise);
       drop(noise);
       return deliver(count - noise);

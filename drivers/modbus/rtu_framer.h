@@ -26,7 +26,7 @@ enum class Found : std::uint8_t {
 /// silent; only there a new one begins. What other units ask and answer is followed by the same
 /// rules, so that nothing inside it is taken for a request. After a frame that is cut or garbled
 /// the next begins with the next silence; on a line that never is silent, where the bytes make
-/// sense again. All is counted. No line, no clock, no heap.
+/// sense again. An exception is nobody's request. All is counted. No line, no clock, no heap.
 class RtuFramer {
  public:
   /// Counts into `counters`, which outlive the framer.

@@ -22,6 +22,12 @@ std::chrono::nanoseconds shortest_gap(std::int32_t baud) {
   return std::chrono::nanoseconds(kBits_ns / std::max(baud, 1));
 }
 
+/// Bytes of 11 bits on the line.
+std::chrono::nanoseconds time_of(std::int32_t bytes, std::int32_t baud) {
+  constexpr std::int64_t kBits_ns = 11'000'000'000;
+  return std::chrono::nanoseconds(bytes * kBits_ns / std::max(baud, 1));
+}
+
 }  // namespace
 
 void count_answer(const ReadyAnswer& answer, FieldTime now, LinkCounters& counters) {
@@ -46,6 +52,7 @@ SerialMaster::SerialMaster(const SerialService& service, WordOrder order, LinkSt
 
 Result<void> SerialMaster::open() {
   TUBESIGHT_TRY(line_.open(service_.line));
+  echo_ = {};
   framer_.reset();
   conversation_.reset();
   answer_.reset();
@@ -85,8 +92,7 @@ void SerialMaster::serve(const PollSet& poll) {
   if (poll.readable(line)) {
     receive();
   } else if (poll.readable(silence_.descriptor()) && silence_.went_off()) {
-    take(framer_.silence(), clock_->now());
-    send();
+    end_with_silence();
   }
   if (line_.is_open() && poll.gone(line)) {
     lose_line();
@@ -104,19 +110,12 @@ void SerialMaster::receive() {
   const std::uint32_t others = state_->counters.other_units;
   for (const std::uint8_t byte :
        std::span(chunk).first(count > 0 ? static_cast<std::size_t>(count) : 0)) {
-    framer_.append(byte);
-    while (true) {
-      const Found found = framer_.next();
-      if (found == Found::kNothing) {
-        break;
-      }
-      take(found, arrival);
-    }
+    receive_byte(byte, arrival);
   }
   if (state_->counters.other_units != others) {
     abandon();  // the line belongs to somebody else by now
   }
-  if (framer_.waits()) {
+  if (framer_.waits() || echo_.holds()) {
     silence_.set(gap_);
   } else {
     silence_.cancel();
@@ -124,8 +123,41 @@ void SerialMaster::receive() {
   send();
 }
 
+void SerialMaster::receive_byte(std::uint8_t byte, FieldTime arrival) {
+  switch (echo_.take(byte, arrival)) {
+    case EchoFilter::Byte::kHeld: break;
+    case EchoFilter::Byte::kEcho:
+      state_->counters.stray_bytes += static_cast<std::uint32_t>(echo_.answer_bytes());
+      break;
+    case EchoFilter::Byte::kOther: read_held(arrival); break;
+  }
+}
+
+void SerialMaster::read_held(FieldTime arrival) {
+  for (const std::uint8_t byte : echo_.held()) {
+    framer_.append(byte);
+    for (Found found = framer_.next(); found != Found::kNothing; found = framer_.next()) {
+      take(found, arrival);
+    }
+  }
+}
+
+void SerialMaster::end_with_silence() {
+  const FieldTime now = clock_->now();
+  if (echo_.holds()) {
+    echo_.let_go();
+    read_held(now);
+  }
+  take(framer_.silence(), now);
+  send();
+}
+
 void SerialMaster::take(Found found, FieldTime arrival) {
   if (found == Found::kNothing) {
+    return;
+  }
+  if (found == Found::kRequest && echo_.is_echo(framer_.request(), arrival)) {
+    state_->counters.stray_bytes += static_cast<std::uint32_t>(echo_.answer_bytes());
     return;
   }
   // A master that asks again has given up what it asked before, and would take an answer to that
@@ -152,6 +184,9 @@ void SerialMaster::abandon() {
 void SerialMaster::finish() {
   if (auto answer = conversation_.finish(clock_->now())) {
     answer_ = answer;
+    if (framer_.waits() || echo_.holds()) {
+      abandon();  // the master speaks already, and would not hear it
+    }
     send();
   }
 }
@@ -164,7 +199,10 @@ void SerialMaster::send() {
   RtuFramer::wrap(service_.unit, answer_->pdu.view(), frame);
   const auto size = static_cast<std::size_t>(frame.size());
   if (write(line_.descriptor(), frame.begin(), size) == static_cast<ssize_t>(size)) {
-    count_answer(*answer_, clock_->now(), state_->counters);
+    const FieldTime now = clock_->now();
+    // The answer is on its way for as long as a request of as many bytes after it.
+    echo_.expect(frame, now + 2 * time_of(frame.size(), service_.line.baud));
+    count_answer(*answer_, now, state_->counters);
   } else {
     ++state_->counters.abandoned_answers;
   }

@@ -8,6 +8,7 @@
 #include "core/base/field.h"
 #include "core/base/result.h"
 #include "drivers/modbus/conversation.h"
+#include "drivers/modbus/echo_filter.h"
 #include "drivers/modbus/poll_set.h"
 #include "drivers/modbus/rtu_framer.h"
 #include "drivers/modbus/serial_line.h"
@@ -40,12 +41,16 @@ class SerialMaster {
   /// Does what there is to do.
   void serve(const PollSet& poll);
   void hear(const core::Reply& reply, core::FieldTime now) { conversation_.hear(reply, now); }
-  /// Sends the answer that waited for a verdict, if it is there.
+  /// Sends the answer that waited for a verdict, if it is there and the line is silent; call
+  /// serve() before, so that what has come is known.
   void finish();
 
  private:
   void lose_line();
   void receive();
+  void receive_byte(std::uint8_t byte, core::FieldTime arrival);
+  void read_held(core::FieldTime arrival);
+  void end_with_silence();
   void take(Found found, core::FieldTime arrival);
   void abandon();
   void send();
@@ -55,6 +60,7 @@ class SerialMaster {
   const hal::Clock* clock_;
   std::chrono::nanoseconds gap_;
   SerialLine line_;
+  EchoFilter echo_;
   RtuFramer framer_;
   Conversation conversation_;
   Timer silence_;

@@ -1,7 +1,10 @@
 #include "drivers/modbus/tcp_master.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -14,6 +17,13 @@ namespace {
 constexpr std::uint8_t kAnyUnit = 0;
 constexpr std::uint8_t kNoUnit = 255;
 
+/// Bytes that wait to be read; where the kernel does not say, all that will ever come.
+std::size_t unread(int descriptor) {
+  int count = 0;
+  return ioctl(descriptor, FIONREAD, &count) == 0 && count >= 0 ? static_cast<std::size_t>(count)
+                                                                : SIZE_MAX;
+}
+
 }  // namespace
 
 void TcpMaster::open(int descriptor) {
@@ -23,6 +33,8 @@ void TcpMaster::open(int descriptor) {
   conversation_.reset();
   count_ = 0;
   taken_ = 0;
+  late_ = 0;
+  late_unread_ = 0;
   heard_ = clock_->now();
 }
 
@@ -61,11 +73,14 @@ void TcpMaster::receive() {
   heard_ = clock_->now();
   count_ = count > 0 ? static_cast<std::size_t>(count) : 0;
   taken_ = 0;
+  late_ = std::min(late_unread_, count_);
+  late_unread_ -= late_;
   take_received();
 }
 
 void TcpMaster::take_received() {
   while (descriptor_ >= 0 && taken_ < count_ && !conversation_.waits()) {
+    const bool late = taken_ < late_;
     framer_.append(received_[taken_++]);
     const TcpFramer::Found found = framer_.next();
     if (found == TcpFramer::Found::kBroken) {
@@ -81,7 +96,9 @@ void TcpMaster::take_received() {
       continue;
     }
     ++state_->counters.requests;
-    if (const auto answer = conversation_.take(framer_.request(), heard_)) {
+    const auto answer = late ? conversation_.take_late(framer_.request(), heard_)
+                             : conversation_.take(framer_.request(), heard_);
+    if (answer) {
       send(*answer);
     }
   }
@@ -89,6 +106,7 @@ void TcpMaster::take_received() {
 
 void TcpMaster::finish() {
   if (const auto answer = conversation_.finish(clock_->now())) {
+    late_unread_ = unread(descriptor_);
     send(*answer);
     take_received();
   }

@@ -51,6 +51,9 @@ class TcpMaster {
   std::array<std::uint8_t, 512> received_{};
   std::size_t count_ = 0;
   std::size_t taken_ = 0;
+  /// How many of them, and of those that are with the kernel, came while an answer waited.
+  std::size_t late_ = 0;
+  std::size_t late_unread_ = 0;
 };
 
 }  // namespace tubesight::drivers

@@ -75,6 +75,42 @@ TEST(DialogueCommand, AStartWithAnotherWindowIsRefusedAtOnce) {
   EXPECT_EQ(bench.get(kStartReason), 101);
 }
 
+/// Names the window of the settings or another, and insists.
+void insist_on_start(LinkBench& bench, std::int32_t window_right) {
+  ASSERT_EQ(bench.set(kWindowRight, window_right), Refusal::kNone);
+  ASSERT_EQ(bench.set(kStartConfirm, 1), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 1), Refusal::kNone);
+  EXPECT_EQ(bench.get(kStartConfirm), 0);
+}
+
+TEST(DialogueCommand, InsistingCountsForOneStart) {
+  for (const auto outcome : {core::StartRefusal::kNone, core::StartRefusal::kMoved}) {
+    LinkBench bench;
+    insist_on_start(bench, 595);
+    const core::Event first = bench.take_event();
+    EXPECT_TRUE(content_of<core::Start>(first).confirmed);
+    bench.reply(first.id, core::StartReply{outcome});
+    EXPECT_EQ(bench.get(kStartConfirm), 0);
+
+    ASSERT_EQ(bench.set(kCommand, 0), Refusal::kNone);
+    ASSERT_EQ(bench.set(kCommand, 1), Refusal::kNone);
+
+    EXPECT_FALSE(content_of<core::Start>(bench.take_event()).confirmed) << "another start";
+  }
+}
+
+TEST(DialogueCommand, InsistingOnAStartWithAnotherWindowIsForgottenWithIt) {
+  LinkBench bench;
+  insist_on_start(bench, 500);
+  EXPECT_EQ(bench.events.size(), 0u) << "refused";
+
+  ASSERT_EQ(bench.set(kCommand, 0), Refusal::kNone);
+  ASSERT_EQ(bench.set(kWindowRight, 595), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 1), Refusal::kNone);
+
+  EXPECT_FALSE(content_of<core::Start>(bench.take_event()).confirmed);
+}
+
 TEST(DialogueCommand, ALateResultOfAWithdrawnCommandIsNotTaken) {
   LinkBench bench;
   ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);

@@ -208,6 +208,48 @@ TEST_F(LinkFaults, AClaimThatNobodyJudgesIsAnsweredInTimeAllTheSame) {
   EXPECT_EQ(counter(Register::kLateClaims), 5U);
 }
 
+/// A line on which a frame may pause for longer than a claim waits.
+class PausingLine : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(link_.start()); }
+  static ModbusSettings settings(const Pty& line) {
+    ModbusSettings settings = settings_for(line.device());
+    settings.serial.frame_gap = 2s;
+    return settings;
+  }
+  core::Event wait_for_event() {
+    for (int i = 0; i < 4000; ++i) {
+      if (const auto polled = link_.poll_event(); polled && *polled) {
+        return **polled;
+      }
+      std::this_thread::sleep_for(250us);
+    }
+    ADD_FAILURE() << "no event";
+    return {};
+  }
+
+  Pty line_;
+  tests::SteadyClock clock_;
+  ModbusRobotLink link_{settings(line_), tests::make_identity(), clock_};
+};
+
+TEST_F(PausingLine, AVerdictIsNotSentIntoARequestThatArrives) {
+  const Bytes next = rtu_frame(17, kReadMark);
+  for (const std::ptrdiff_t begun : {1, 5}) {
+    line_.send(rtu_frame(17, claim(1)));
+    const core::Event event = wait_for_event();
+    line_.send(Bytes(next.begin(), next.begin() + begun));
+    tests::vouch(link_, event);
+
+    EXPECT_EQ(line_.receive(80ms), Bytes()) << begun;
+    line_.send(Bytes(next.begin() + begun, next.end()));
+    EXPECT_EQ(line_.receive(1000ms), rtu_frame(17, kMark)) << begun;
+  }
+
+  EXPECT_EQ(tests::counter_on(line_, Register::kAbandonedAnswers), 2U);
+  EXPECT_EQ(tests::counter_on(line_, Register::kCutFrames), 0U);
+}
+
 /// A line that can be pulled out of its place and put in again.
 class PulledLine : public testing::Test {
  protected:

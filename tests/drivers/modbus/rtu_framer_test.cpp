@@ -126,6 +126,22 @@ TEST(RtuFramer, FindsUnknownFunctions) {
   EXPECT_EQ(line.requests[0], (Bytes{99, 1, 2, 3}));
 }
 
+TEST(RtuFramer, AnExceptionIsNoRequest) {
+  Line line;
+  line.send(with_crc({kUnit, 0x83, 2}));
+  line.send(kRead);
+  ASSERT_EQ(line.requests.size(), 1u) << "the request behind it, without any silence";
+  EXPECT_EQ(line.requests[0], kReadRequest);
+  EXPECT_EQ(line.counters.stray_bytes, 5u);
+
+  line.send(with_crc({kUnit, 0x83, 2, 9, 9}));
+  line.silence();
+  line.send(Bytes{0xFF} + with_crc({kUnit, 0x83, 2}));
+  line.silence();
+  EXPECT_EQ(line.requests.size(), 1u);
+  EXPECT_EQ(line.counters.requests, 1u);
+}
+
 TEST(RtuFramer, TellsBroadcastsApart) {
   Line line;
   line.send(with_crc({0, 6, 1, 74, 2, 128}));

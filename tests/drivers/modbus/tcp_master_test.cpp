@@ -63,6 +63,17 @@ class TcpMasterTest : public testing::Test {
   }
   void SetUp() override { ASSERT_TRUE(link_.start()); }
 
+  core::Event wait_for_event() {
+    for (int i = 0; i < 4000; ++i) {
+      if (const auto polled = link_.poll_event(); polled && *polled) {
+        return **polled;
+      }
+      std::this_thread::sleep_for(250us);
+    }
+    ADD_FAILURE() << "no event";
+    return {};
+  }
+
   tests::SteadyClock clock_;
   ModbusRobotLink link_{settings(), tests::make_identity(), clock_};
 };
@@ -101,6 +112,56 @@ TEST_F(TcpMasterTest, AnswersRequestsSentAheadOfAVerdictInTheirOrder) {
   EXPECT_EQ(verdict[1], 1);
   EXPECT_EQ(verdict[7 + 13], 1) << "AGREE";
   EXPECT_EQ(robot.receive(kMark.size()), kMark);
+}
+
+/// A claim of (12, -7), function 23, under a number of the master's that is its id as well.
+Bytes claim(std::uint8_t id) {
+  return {0, id, 0, 0,  0, 27, 1, 23, 0,    200,  0,    24,   1, 44, 0, 8, 16,
+          0, 0,  0, id, 0, 0,  0, 12, 0xFF, 0xFF, 0xFF, 0xF9, 0, 0,  0, 1};
+}
+
+/// When it came nobody knows afterwards: judged, it would be at an instant that is not its own.
+TEST_F(TcpMasterTest, RefusesAClaimThatCameWhileOneWaited) {
+  const TcpRobot robot(link_.tcp_port());
+  robot.send(claim(1));
+  const core::Event first = wait_for_event();
+  robot.send(claim(2));
+  robot.send({0, 3, 0, 0, 0, 11, 1, 16, 1, 50, 0, 2, 4, 0, 0, 0, 1});  // function 16, a claim
+  robot.send({0, 4, 0, 0, 0, 6, 1, 6, 1, 51, 0, 1});                   // function 6, a claim
+  robot.send({0, 5, 0, 0, 0, 6, 1, 6, 1, 50, 0, 0});                   // none yet
+  robot.send(kReadMark);
+  std::this_thread::sleep_for(5ms);
+  tests::vouch(link_, first);
+
+  const Bytes verdict = robot.receive(57);
+  ASSERT_EQ(verdict.size(), 57u);
+  EXPECT_EQ(verdict[7 + 13], 1) << "AGREE";
+  EXPECT_EQ(robot.receive(9), (Bytes{0, 2, 0, 0, 0, 3, 1, 0x97, 6}));
+  EXPECT_EQ(robot.receive(9), (Bytes{0, 3, 0, 0, 0, 3, 1, 0x90, 6}));
+  EXPECT_EQ(robot.receive(9), (Bytes{0, 4, 0, 0, 0, 3, 1, 0x86, 6}));
+  EXPECT_EQ(robot.receive(12), (Bytes{0, 5, 0, 0, 0, 6, 1, 6, 1, 50, 0, 0}));
+  EXPECT_EQ(robot.receive(kMark.size()), kMark);
+  for (int i = 0; i < 5; ++i) {
+    const auto event = link_.poll_event();  // an error as well, that requests were refused
+    EXPECT_TRUE(!event || !*event) << "none of them reached the box";
+  }
+
+  const auto before = clock_.now();
+  robot.send(claim(6));
+  EXPECT_GE(wait_for_event().at, before) << "sent again, it is taken";
+}
+
+TEST_F(TcpMasterTest, AClaimBehindAClaimInOneSegmentKeepsItsInstant) {
+  const TcpRobot robot(link_.tcp_port());
+  Bytes both = claim(1);
+  const Bytes second = claim(2);
+  both.insert(both.end(), second.begin(), second.end());
+  robot.send(both);
+
+  const core::Event one = wait_for_event();
+  const core::Event two = wait_for_event();  // after the time in which nobody judged the first
+
+  EXPECT_EQ(one.at, two.at);
 }
 
 TEST_F(TcpMasterTest, HangsUpOnWhatIsNotModbus) {
