@@ -62,7 +62,7 @@ void ControlDesk::serve_recordings(drivers::ControlServer& server, MonotonicTime
     const RecordAnswer answer = box_->record_answer(each.number);
     if (answer.state == RecordAnswer::State::kWritten) {
       server.answer(each.client, recorded_answer(answer.words));
-    } else if (answer.state == RecordAnswer::State::kNotWritten) {
+    } else if (answer.state != RecordAnswer::State::kPending) {
       server.answer(each.client, refusal_answer(kRecord, answer.words));
     } else if (now - each.since > kRecordingPatience) {
       server.answer(each.client, refusal_answer(kRecord, "not written yet, status will tell"));

@@ -89,6 +89,7 @@ int run(const BoxSettings& settings) {
   log.say("started, " + std::string(program_version()));
   serve(*box, desk, server, watch, signals);
   box->stop();
+  desk.serve_replies(server, monotonic_now());  // what stop() wrote, somebody may wait for
   server.stop();
   log.say("stopped");
   return kDone;

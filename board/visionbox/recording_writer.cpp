@@ -30,6 +30,7 @@ RecordingWriter::RecordingWriter(EventRecorder& recorder, const RecordSettings& 
 
 void RecordingWriter::start() {
   stopping_ = false;
+  over_ = false;  // no thread runs yet
   const bool is_open = open();
   thread_ = std::thread([this, is_open] { run(is_open); });
 }
@@ -60,6 +61,8 @@ void RecordingWriter::run(bool is_open) {
       next_measure = now + kMeasureEvery;
     }
     if (last) {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
       return;
     }
     sleep_until(now + kLookEvery);
@@ -136,8 +139,14 @@ RecordAnswer RecordingWriter::answer(std::uint32_t number) const {
       return ended.answer;
     }
   }
+  if (over_) {
+    return {RecordAnswer::State::kNotWritten,
+            "the box ended before it was written" + (open_ ? "" : ": " + trouble_)};
+  }
   if (!open_) {
-    return {RecordAnswer::State::kNotWritten, trouble_};
+    return {RecordAnswer::State::kWaits,
+            "not written yet, waits for the folder: " + trouble_ +
+                "; kept while memory has room for it, status will tell"};
   }
   return {};
 }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -105,6 +107,23 @@ TEST_F(RecordingBox, ReplaysWhatTheBoxSaidFromTheMiddleOfAMission) {
   EXPECT_TRUE(names[1].ends_with("-track-lost"));
   EXPECT_GT(expect_replay(names[0]), 60);
   EXPECT_GT(expect_replay(names[1]), 20);
+}
+
+TEST(BoxRecording, WhoWaitsForOneHearsOfItFromABoxThatEnds) {
+  Daemon box;
+  box.write_simulated_settings(
+      "script = true\n[record]\nfolder = \".\"\nmemory_mb = 64\nfields_after = 120\n");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+  Answered asked;
+  std::thread client([&] { asked = box.ask({"record"}); });
+  static_cast<void>(box.wait_for("\"asked\":1", std::chrono::seconds(20)));
+
+  box.signal(SIGTERM);
+
+  EXPECT_EQ(box.wait_for_end(std::chrono::seconds(20)), 0) << box.said();
+  client.join();
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_TRUE(asked.out.starts_with("written: ")) << asked.out;
 }
 
 TEST(BoxRecording, IsAskedForByTheControlProgramAndReplays) {
