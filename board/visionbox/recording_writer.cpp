@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/wakeup.h"
 #include "drivers/settings/session_text.h"
 
@@ -32,7 +33,10 @@ void RecordingWriter::start() {
   stopping_ = false;
   over_ = false;  // no thread runs yet
   const bool is_open = open();
-  thread_ = std::thread([this, is_open] { run(is_open); });
+  thread_ = std::thread([this, is_open] {
+    use_signal_stack();
+    run(is_open);
+  });
 }
 
 void RecordingWriter::stop() {
