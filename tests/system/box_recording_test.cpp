@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/control_desk.h"
 #include "board/visionbox/vision_box.h"
 #include "drivers/files/result_csv.h"
 #include "tests/support/events.h"
@@ -107,6 +108,23 @@ TEST_F(RecordingBox, ReplaysWhatTheBoxSaidFromTheMiddleOfAMission) {
   EXPECT_TRUE(names[1].ends_with("-track-lost"));
   EXPECT_GT(expect_replay(names[0]), 60);
   EXPECT_GT(expect_replay(names[1]), 20);
+}
+
+TEST_F(RecordingBox, NoMoreWaitForAnAnswerThanItHasRoomFor) {
+  load("memory_mb = 32\n");
+  board::ControlDesk desk([this] { return box_->report(); }, *box_, settings_->told().start);
+  for (drivers::ControlClient client = 1; client <= 64; ++client) {
+    ASSERT_FALSE(desk.handle(client, "1 record"));
+    ASSERT_FALSE(desk.handle(client, "1 lamp 500"));
+    turns(1);  // the tracking takes what was asked; nobody fetches the answers
+  }
+  for (const char* line : {"1 record", "1 lamp 500"}) {
+    const auto refused = desk.handle(65, line);
+    ASSERT_TRUE(refused) << line;
+    EXPECT_NE(refused->find("the box has too much to do, ask again"), std::string::npos);
+  }
+  EXPECT_TRUE(desk.handle(65, "1 status")) << "who asks how it is doing hears it";
+  box_->stop();
 }
 
 TEST(BoxRecording, WhoWaitsForOneHearsOfItFromABoxThatEnds) {
