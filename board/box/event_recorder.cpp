@@ -1,6 +1,7 @@
 #include "board/box/event_recorder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 
 #include "core/base/assert.h"
@@ -16,6 +17,10 @@ using core::Parity;
 using core::Result;
 using core::Scan;
 using core::Unexpected;
+
+/// Between recordings that disagreements begin. With the defaults the disk holds 31 recordings:
+/// what is older stays there for a quarter of an hour of a robot that is wrong without end.
+constexpr core::FieldTime kBetweenDisagreements = std::chrono::seconds(30);
 
 void count(std::atomic<std::uint32_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
@@ -159,7 +164,7 @@ void EventRecorder::look_for_reasons(const Field& field, const core::session::Ou
   const core::TrackState state = output.sighting.state;
   const bool lost = state == core::TrackState::kLost && state_ != core::TrackState::kLost;
   state_ = state;
-  if (disagrees(output) && settings_.on_disagreement) {
+  if (settings_.on_disagreement && disagrees(field, output)) {
     ask(hal::RecordingReason::kDisagreement, field);
   }
   if (lost && settings_.on_track_lost) {
@@ -174,7 +179,7 @@ void EventRecorder::look_for_reasons(const Field& field, const core::session::Ou
 
 /// Whether a claim is contradicted that was not, just before: a robot that insists on it is shown
 /// by the first recording.
-bool EventRecorder::disagrees(const core::session::Output& output) {
+bool EventRecorder::disagrees(const Field& field, const core::session::Output& output) {
   bool anew = false;
   for (const core::Reply& reply : output.replies) {
     const auto* const claim = core::content_if<core::ClaimReply>(reply);
@@ -182,13 +187,29 @@ bool EventRecorder::disagrees(const core::session::Output& output) {
       continue;
     }
     if (claim->verdict == core::ClaimVerdict::kContradicted) {
-      anew = anew || contradicted_ != claim->claimed;
+      if (contradicted_ == claim->claimed) {
+        continue;
+      }
+      if (too_soon(field)) {
+        count(counts_.spared);  // and not taken as shown
+        continue;
+      }
+      anew = true;
       contradicted_ = claim->claimed;
     } else if (claim->verdict == core::ClaimVerdict::kConfirmed) {
       contradicted_.reset();
     }
   }
   return anew;
+}
+
+/// A recording that is going on shows it at no cost. Time that runs backwards is another source's.
+bool EventRecorder::too_soon(const Field& field) const {
+  if (going_on_ >= 0 || !disagreed_at_) {
+    return false;
+  }
+  const core::FieldTime since = field.mid_exposure - *disagreed_at_;
+  return core::FieldTime{0} <= since && since < kBetweenDisagreements;
 }
 
 void EventRecorder::ask(hal::RecordingReason reason, const Field& field,
@@ -206,6 +227,9 @@ void EventRecorder::ask(hal::RecordingReason reason, const Field& field,
     head_.at = field.mid_exposure;
     requests_ = {};
     going_on_ = settings_.fields_after;
+    if (reason == hal::RecordingReason::kDisagreement) {
+      disagreed_at_ = field.mid_exposure;
+    }
   }
   if (requests.last != 0) {
     requests_.first = requests_.last == 0 ? requests.first : requests_.first;
@@ -360,7 +384,8 @@ RecorderCounters EventRecorder::counters() const {
     return counter.load(std::memory_order_relaxed);
   };
   return {read(counts_.asked),   read(counts_.joined), read(counts_.refused),
-          read(counts_.written), read(counts_.failed), read(counts_.restarted)};
+          read(counts_.written), read(counts_.failed), read(counts_.restarted),
+          read(counts_.spared)};
 }
 
 }  // namespace tubesight::board

@@ -49,6 +49,7 @@ struct RecorderCounters {
   std::uint32_t written = 0;    ///< recordings that are in their place
   std::uint32_t failed = 0;     ///< that the store gave up: the disk is full, say
   std::uint32_t restarted = 0;  ///< times that what was kept was dropped as it fits no recording
+  std::uint32_t spared = 0;     ///< contradicted claims that asked for none so soon after another
 };
 
 /// Keeps the last fields with all that a replay needs to repeat their steps to the byte.
@@ -59,7 +60,9 @@ struct RecorderCounters {
 /// they are written by another thread and come back when they are, while recording goes on in those
 /// that are free: a quarter of them is kept for that. Where none is free, the recording is refused
 /// and counted, and nobody waits. A claim that is contradicted again, or a track that stays lost,
-/// is no new reason.
+/// is no new reason. A disagreement asks for no recording within 30 s of fields after the last that
+/// one asked for: a robot that goes on being wrong would push all older ones off the disk. What it
+/// still claims then is recorded.
 ///
 /// How it is used. The assembly makes one, for the camera's size, before the loop starts (all
 /// memory is obtained then, and touched), puts it into BoxServices::recorder, and lets a thread of
@@ -133,7 +136,8 @@ class EventRecorder {
   [[nodiscard]] bool ends_frame(const core::Field& field) const;
   void keep(const core::session::Input& input);
   void look_for_reasons(const core::Field& field, const core::session::Output& output);
-  [[nodiscard]] bool disagrees(const core::session::Output& output);
+  [[nodiscard]] bool disagrees(const core::Field& field, const core::session::Output& output);
+  [[nodiscard]] bool too_soon(const core::Field& field) const;
   void ask(hal::RecordingReason reason, const core::Field& field, RecordingRequests requests = {});
   void refuse(hal::RecordingReason reason, RecordingRequests requests);
   [[nodiscard]] bool open_segment();
@@ -155,6 +159,7 @@ class EventRecorder {
   std::int64_t number_ = -1;  ///< of the last field
   core::TrackState state_ = core::TrackState::kWaiting;
   std::optional<core::TubeAddress> contradicted_;  ///< the claim that was contradicted last
+  std::optional<core::FieldTime> disagreed_at_;    ///< when a disagreement began a recording last
   std::int32_t going_on_ = -1;  ///< fields until the recording is frozen; -1: none
   hal::RecordingHead head_;     ///< of the recording going on
   RecordingRequests requests_;  ///< of the recording going on
@@ -171,6 +176,7 @@ class EventRecorder {
     std::atomic<std::uint32_t> written{0};
     std::atomic<std::uint32_t> failed{0};
     std::atomic<std::uint32_t> restarted{0};
+    std::atomic<std::uint32_t> spared{0};
   };
   Counts counts_;
 };

@@ -151,6 +151,7 @@ void add_recorder(JsonLine& line, const BoxReport& report) {
     add("written", recorder.counters.written);
     add("failed", recorder.counters.failed);
     add("restarted", recorder.counters.restarted);
+    add("spared", recorder.counters.spared);
   }
   line.close();
 }

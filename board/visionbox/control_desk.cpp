@@ -18,6 +18,11 @@ constexpr MonotonicTime kRecordingPatience = std::chrono::seconds(60);
 
 constexpr std::string_view kRecord = "record";
 
+/// Who waits for an answer of one kind: several of each client that has room. Those who asked and
+/// went away wait, too, and are not to fill the memory of a box whose tracking stands still.
+constexpr std::size_t kMostWaiting = 64;
+constexpr std::string_view kTooMuch = "the box has too much to do, ask again";
+
 }  // namespace
 
 std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
@@ -37,8 +42,8 @@ std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
     return record(client);
   }
   asked->event.id = next_id_++;
-  if (!box_->station().submit(asked->event)) {
-    return refusal_answer(request.command, "the box has too much to do, ask again");
+  if (waiting_.size() >= kMostWaiting || !box_->station().submit(asked->event)) {
+    return refusal_answer(request.command, kTooMuch);
   }
   waiting_.push_back({asked->event.id, client, std::move(request.command), monotonic_now()});
   return {};
@@ -47,6 +52,9 @@ std::optional<std::string> ControlDesk::handle(drivers::ControlClient client,
 std::optional<std::string> ControlDesk::record(drivers::ControlClient client) {
   if (!box_->records()) {
     return refusal_answer(kRecord, "nothing is recorded: the settings have no [record]");
+  }
+  if (recordings_.size() >= kMostWaiting) {
+    return refusal_answer(kRecord, kTooMuch);
   }
   recordings_.push_back({box_->request_recording(), client, monotonic_now()});
   return {};
@@ -62,7 +70,7 @@ void ControlDesk::serve_recordings(drivers::ControlServer& server, MonotonicTime
     const RecordAnswer answer = box_->record_answer(each.number);
     if (answer.state == RecordAnswer::State::kWritten) {
       server.answer(each.client, recorded_answer(answer.words));
-    } else if (answer.state == RecordAnswer::State::kNotWritten) {
+    } else if (answer.state != RecordAnswer::State::kPending) {
       server.answer(each.client, refusal_answer(kRecord, answer.words));
     } else if (now - each.since > kRecordingPatience) {
       server.answer(each.client, refusal_answer(kRecord, "not written yet, status will tell"));

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "board/visionbox/panic_dimmer.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -27,7 +29,9 @@ std::string name_of(const drivers::ModbusSettings& settings) {
 
 KeptLink::KeptLink(const drivers::ModbusSettings& settings, const drivers::LinkIdentity& identity,
                    const hal::Clock& clock, Tell tell)
-    : link_(settings, identity, clock), where_(name_of(settings)), tell_(std::move(tell)) {}
+    : link_(settings, identity, clock, use_signal_stack),
+      where_(name_of(settings)),
+      tell_(std::move(tell)) {}
 
 Result<void> KeptLink::start() {
   if (started_) {

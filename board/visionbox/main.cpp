@@ -28,17 +28,16 @@ constexpr int kDone = 0;
 constexpr int kFailed = 1;
 constexpr int kWrongInput = 2;
 
-/// SIGTERM and SIGINT, and those of a terminal that is closed, as a descriptor. Blocked before any
-/// thread runs, so that none is hit.
+/// SIGTERM and SIGINT, those of a terminal that is closed, and others that would end the program
+/// with its lamp lit, as a descriptor. Blocked before any thread runs, so that none is hit.
 class EndSignals {
  public:
   EndSignals() {
     sigset_t signals;
     sigemptyset(&signals);
-    sigaddset(&signals, SIGTERM);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGHUP);
-    sigaddset(&signals, SIGQUIT);
+    for (const int end : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM}) {
+      sigaddset(&signals, end);
+    }
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     fd_ = signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
   }
@@ -89,6 +88,7 @@ int run(const BoxSettings& settings) {
   log.say("started, " + std::string(program_version()));
   serve(*box, desk, server, watch, signals);
   box->stop();
+  desk.serve_replies(server, monotonic_now());  // what stop() wrote, somebody may wait for
   server.stop();
   log.say("stopped");
   return kDone;

@@ -3,10 +3,12 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <initializer_list>
+#include <vector>
 
 #include <sys/uio.h>
 #include <unistd.h>
@@ -32,7 +34,33 @@ struct Deadly {
 constexpr std::array kDeadly{Deadly{SIGSEGV, "SIGSEGV"}, Deadly{SIGBUS, "SIGBUS"},
                              Deadly{SIGFPE, "SIGFPE"},   Deadly{SIGILL, "SIGILL"},
                              Deadly{SIGABRT, "SIGABRT"}, Deadly{SIGTRAP, "SIGTRAP"},
-                             Deadly{SIGSYS, "SIGSYS"}};
+                             Deadly{SIGSYS, "SIGSYS"},   Deadly{SIGXCPU, "SIGXCPU"}};
+
+/// A stack for the handlers of a thread, as long as that lives.
+class SignalStack {
+ public:
+  SignalStack() : memory_(kBytes) {
+    stack_t own{};
+    own.ss_sp = memory_.data();
+    own.ss_size = memory_.size();
+    held_ = sigaltstack(&own, &before_) == 0;
+  }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+  /// What stood there before may be somebody's who frees what he finds: a sanitizer's.
+  ~SignalStack() {
+    if (held_) {
+      sigaltstack(&before_, nullptr);
+    }
+  }
+
+ private:
+  /// For the registers of any processor, which the system puts there, and a lamp's driver.
+  static constexpr std::size_t kBytes = 64UL * 1024;
+  std::vector<std::byte> memory_;
+  stack_t before_{};
+  bool held_ = false;
+};
 
 /// One line in one call, of what a handler may call.
 void say(std::initializer_list<const char*> parts) {
@@ -131,13 +159,16 @@ void PanicDimmer::darken() {
   }
 }
 
+void use_signal_stack() { thread_local const SignalStack stack; }
+
 void install_panic_hooks() {
+  use_signal_stack();
   core::set_panic_hook(on_failed_assertion);
   std::set_terminate(on_terminate);
   for (const Deadly& each : kDeadly) {
     struct sigaction action {};
     action.sa_handler = on_deadly_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER | SA_ONSTACK);
     sigaction(each.signal, &action, nullptr);
   }
 }

@@ -38,7 +38,11 @@ class PanicDimmer final : public hal::Dimmer {
 };
 
 /// From now on the program's death makes the lamp dark, says why in one line to standard error, and
-/// is the same death otherwise. Once, before any thread runs.
+/// is the same death otherwise. Once, before any thread runs. Calls use_signal_stack().
 void install_panic_hooks();
+
+/// Gives the calling thread a stack for deadly signals, until it ends: on its own one, when that
+/// has overflowed, no handler can run. At a thread's start, as it allocates.
+void use_signal_stack();
 
 }  // namespace tubesight::board

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "board/visionbox/panic_dimmer.h"
 #include "core/base/assert.h"
 
 namespace tubesight::board {
@@ -44,7 +45,10 @@ Result<void> PlayedSource::start() {
     static_cast<void>(free_.try_push(i));  // as many places as slots
     slot_freed_.wake();
   }
-  thread_ = std::thread([this] { play_all(); });
+  thread_ = std::thread([this] {
+    use_signal_stack();
+    play_all();
+  });
   constexpr auto kLongest = std::chrono::seconds(10);
   opened_.wait_until(monotonic_now() + kLongest);
   return {};

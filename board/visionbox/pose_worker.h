@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "board/box/pose_handover.h"
+#include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/wakeup.h"
 
 namespace tubesight::board {
@@ -35,6 +36,7 @@ class PoseWorker {
   static constexpr std::chrono::milliseconds kEvery{8};
 
   void run() {
+    use_signal_stack();
     while (!stopping_) {
       if (!handover_->serve()) {
         sleep_until(monotonic_now() + kEvery);

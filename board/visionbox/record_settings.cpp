@@ -1,6 +1,9 @@
 #include "board/visionbox/record_settings.h"
 
+#include <filesystem>
+#include <string>
 #include <string_view>
+#include <system_error>
 
 #include "board/visionbox/settings_path.h"
 #include "core/base/scalar.h"
@@ -15,6 +18,13 @@ constexpr drivers::WholeRange kDisk{16, 10'000'000};
 
 constexpr std::size_t kStateBytes = core::session::Session<core::FixedPoint>::state_bytes();
 
+/// One that is not there may come, with its disk; what stands in its place never becomes one.
+bool is_no_folder(const std::string& path) {
+  std::error_code unknown;
+  const auto there = std::filesystem::status(path, unknown);
+  return std::filesystem::exists(there) && !std::filesystem::is_directory(there);
+}
+
 }  // namespace
 
 void read_record(const drivers::SettingsDocument& document, drivers::TableReader& table,
@@ -24,6 +34,8 @@ void read_record(const drivers::SettingsDocument& document, drivers::TableReader
     record.folder = from_its_folder(document, table, "folder", folder);
     if (folder.empty()) {
       table.complain("folder", "'', expected the path of a folder");
+    } else if (is_no_folder(record.folder)) {
+      table.complain("folder", "'" + record.folder + "' is no folder, expected one, or none yet");
     }
   }
   table.optional_whole("memory_mb", kMemory, record.recorder.memory_mb);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <utility>
 
+#include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/wakeup.h"
 #include "drivers/settings/session_text.h"
 
@@ -30,8 +31,12 @@ RecordingWriter::RecordingWriter(EventRecorder& recorder, const RecordSettings& 
 
 void RecordingWriter::start() {
   stopping_ = false;
+  over_ = false;  // no thread runs yet
   const bool is_open = open();
-  thread_ = std::thread([this, is_open] { run(is_open); });
+  thread_ = std::thread([this, is_open] {
+    use_signal_stack();
+    run(is_open);
+  });
 }
 
 void RecordingWriter::stop() {
@@ -60,6 +65,8 @@ void RecordingWriter::run(bool is_open) {
       next_measure = now + kMeasureEvery;
     }
     if (last) {
+      const std::lock_guard lock(mutex_);
+      over_ = true;
       return;
     }
     sleep_until(now + kLookEvery);
@@ -136,8 +143,14 @@ RecordAnswer RecordingWriter::answer(std::uint32_t number) const {
       return ended.answer;
     }
   }
+  if (over_) {
+    return {RecordAnswer::State::kNotWritten,
+            "the box ended before it was written" + (open_ ? "" : ": " + trouble_)};
+  }
   if (!open_) {
-    return {RecordAnswer::State::kNotWritten, trouble_};
+    return {RecordAnswer::State::kWaits,
+            "not written yet, waits for the folder: " + trouble_ +
+                "; kept while memory has room for it, status will tell"};
   }
   return {};
 }

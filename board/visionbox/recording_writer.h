@@ -28,7 +28,12 @@ struct RecorderReport {
 
 /// What became of a request for a recording.
 struct RecordAnswer {
-  enum class State : std::uint8_t { kPending, kWritten, kNotWritten };
+  enum class State : std::uint8_t {
+    kPending,
+    kWritten,
+    kNotWritten,  ///< and never will be
+    kWaits,       ///< for its folder, without end; written when that is there and memory held it
+  };
   State state = State::kPending;
   std::string words;  ///< its path without ending, or why there is none
 };
@@ -81,6 +86,7 @@ class RecordingWriter {
 
   mutable std::mutex mutex_;  ///< of what follows; never taken by the tracking thread
   bool open_ = false;
+  bool over_ = false;  ///< nothing is written any more
   std::int64_t room_mb_ = 0;
   std::string last_;
   std::string trouble_;

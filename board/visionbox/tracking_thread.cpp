@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "board/visionbox/panic_dimmer.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -33,6 +35,7 @@ void TrackingThread::stop() {
 
 void TrackingThread::run() {
   touch_stack();
+  use_signal_stack();
   if (settings_.priority > 0) {
     no_priority_ = schedule_in_real_time(settings_.priority);
     now_.scheduled = no_priority_.empty();

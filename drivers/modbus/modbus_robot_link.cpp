@@ -18,7 +18,7 @@ void be_ordinary() {
   static_cast<void>(sched_setscheduler(0, SCHED_OTHER, &ordinary));
   sigset_t all;
   sigfillset(&all);
-  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS}) {
+  for (const int deadly : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGXCPU}) {
     sigdelset(&all, deadly);
   }
   static_cast<void>(pthread_sigmask(SIG_BLOCK, &all, nullptr));
@@ -27,8 +27,8 @@ void be_ordinary() {
 }  // namespace
 
 ModbusRobotLink::ModbusRobotLink(const ModbusSettings& settings, const LinkIdentity& identity,
-                                 const hal::Clock& clock)
-    : server_(settings, identity, exchange_, clock) {}
+                                 const hal::Clock& clock, void (*at_thread_start)())
+    : server_(settings, identity, exchange_, clock), at_thread_start_(at_thread_start) {}
 
 Result<void> ModbusRobotLink::start() {
   if (started_) {
@@ -42,6 +42,9 @@ Result<void> ModbusRobotLink::start() {
   losses_told_ = exchange_.losses.load();
   thread_ = std::thread([this] {
     be_ordinary();
+    if (at_thread_start_ != nullptr) {
+      at_thread_start_();
+    }
     server_.run();
   });
   started_ = true;

@@ -26,8 +26,9 @@ namespace tubesight::drivers {
 class ModbusRobotLink final : public hal::RobotLink {
  public:
   /// `clock` stamps the fields, outlives the link and is asked by the link's thread, too.
+  /// `at_thread_start`, where it is given, is called on that thread before all else it does.
   ModbusRobotLink(const ModbusSettings& settings, const LinkIdentity& identity,
-                  const hal::Clock& clock);
+                  const hal::Clock& clock, void (*at_thread_start)() = nullptr);
   ModbusRobotLink(const ModbusRobotLink&) = delete;
   ModbusRobotLink& operator=(const ModbusRobotLink&) = delete;
   ~ModbusRobotLink() { stop(); }
@@ -59,6 +60,7 @@ class ModbusRobotLink final : public hal::RobotLink {
 
   Exchange exchange_;
   ModbusServer server_;
+  void (*at_thread_start_)();
   std::thread thread_;
   bool started_ = false;
   std::uint32_t losses_told_ = 0;

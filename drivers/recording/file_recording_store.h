@@ -31,8 +31,9 @@ class FileRecordingStore final : public hal::RecordingStore {
   FileRecordingStore(std::string folder, std::int64_t most_mb, std::string session,
                      WallClock wall_clock);
 
-  /// Removes what a box that was stopped left unfinished. Call once, before the first recording.
-  /// Errors: kIo the folder is not there or cannot be read.
+  /// Claims the folder for this store alone, and removes what a box that was stopped left
+  /// unfinished. Call before the first recording, again where it failed. Errors: kNotReady another
+  /// box records there; kIo the folder is not there or cannot be read.
   [[nodiscard]] core::Result<void> open();
 
   [[nodiscard]] core::Result<void> begin(const hal::RecordingHead& head) override;

@@ -1,12 +1,20 @@
 #include "drivers/recording/recording_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <system_error>
 #include <utility>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include "drivers/files/atomic_file.h"
 
@@ -98,6 +106,36 @@ std::string_view word_of(hal::RecordingReason reason) {
   return "";
 }
 
+FolderClaim::Outcome FolderClaim::take(const std::string& folder) {
+  release();
+  struct stat there {};
+  if (stat(folder.c_str(), &there) != 0) {
+    return Outcome::kFailed;
+  }
+  const std::string name =
+      "tubesight-recordings-" + std::to_string(there.st_dev) + "-" + std::to_string(there.st_ino);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::copy(name.begin(), name.end(), &address.sun_path[1]);  // behind a 0: no file
+  const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
+  fd_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  // The interface of sockets. NOLINTNEXTLINE(*-reinterpret-cast)
+  if (fd_ >= 0 && bind(fd_, reinterpret_cast<const sockaddr*>(&address), length) == 0) {
+    return Outcome::kHeld;
+  }
+  const int why = errno;
+  release();
+  errno = why;
+  return why == EADDRINUSE ? Outcome::kTaken : Outcome::kFailed;
+}
+
+void FolderClaim::release() {
+  if (fd_ >= 0) {
+    close(fd_);
+    fd_ = -1;
+  }
+}
+
 Result<void> RecordingFolder::fail(Error error, std::string message) {
   message_ = std::move(message);
   return Unexpected(error);
@@ -142,6 +180,13 @@ Result<void> RecordingFolder::list(std::vector<Entry>& entries, bool remove_unfi
 }
 
 Result<void> RecordingFolder::open() {
+  switch (claim_.take(folder_)) {
+    case FolderClaim::Outcome::kHeld: break;
+    case FolderClaim::Outcome::kTaken:
+      return fail(Error::kNotReady, folder_ + ": another box records there");
+    case FolderClaim::Outcome::kFailed:
+      return fail(Error::kIo, folder_ + ": cannot be read: " + std::strerror(errno));
+  }
   std::vector<Entry> entries;
   TUBESIGHT_TRY(list(entries, true));
   for (const Entry& entry : entries) {

@@ -15,6 +15,32 @@ namespace tubesight::drivers {
 /// The word of a reason in names: `disagreement`, `track-lost`, `command`.
 [[nodiscard]] std::string_view word_of(hal::RecordingReason reason);
 
+/// That no other recorder on this machine has the same folder, by whatever path.
+///
+/// It is held by an abstract socket named after the folder's device and inode: nothing lies in the
+/// folder for it, and the system lets go of it whatever becomes of the program. Another machine, or
+/// another network namespace, is not seen.
+class FolderClaim {
+ public:
+  enum class Outcome : std::uint8_t {
+    kHeld,
+    kTaken,   ///< somebody else holds it
+    kFailed,  ///< `errno` says why
+  };
+
+  FolderClaim() = default;
+  FolderClaim(const FolderClaim&) = delete;
+  FolderClaim& operator=(const FolderClaim&) = delete;
+  ~FolderClaim() { release(); }
+
+  /// Lets go of what was held before.
+  [[nodiscard]] Outcome take(const std::string& folder);
+  void release();
+
+ private:
+  int fd_ = -1;
+};
+
 /// A folder that holds recordings among whatever else: knows its own by their names, keeps their
 /// sum within a bound, and touches nothing else.
 ///
@@ -35,8 +61,9 @@ class RecordingFolder {
   RecordingFolder(std::string folder, std::int64_t most_bytes, FreeBytes free = free_on_disk)
       : folder_(std::move(folder)), most_bytes_(most_bytes), free_(std::move(free)) {}
 
-  /// Looks what is there, and removes the remains of recordings that a box was stopped in. Errors:
-  /// kIo the folder is not there or cannot be read.
+  /// Claims the folder until the end of this object, looks what is there, and removes the remains
+  /// of recordings that a box was stopped in. May be called again. Errors: kNotReady another box
+  /// records there; kIo the folder is not there or cannot be read. Nothing is removed then.
   [[nodiscard]] core::Result<void> open();
 
   /// Removes the oldest recordings until `bytes` more have room, within the bound and on the disk.
@@ -74,6 +101,7 @@ class RecordingFolder {
   core::Result<void> fail(core::Error error, std::string message);
 
   std::string folder_;
+  FolderClaim claim_;
   std::int64_t most_bytes_;
   FreeBytes free_;
   std::int64_t last_number_ = 0;

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/control_desk.h"
 #include "board/visionbox/vision_box.h"
 #include "drivers/files/result_csv.h"
 #include "tests/support/events.h"
@@ -105,6 +108,40 @@ TEST_F(RecordingBox, ReplaysWhatTheBoxSaidFromTheMiddleOfAMission) {
   EXPECT_TRUE(names[1].ends_with("-track-lost"));
   EXPECT_GT(expect_replay(names[0]), 60);
   EXPECT_GT(expect_replay(names[1]), 20);
+}
+
+TEST_F(RecordingBox, NoMoreWaitForAnAnswerThanItHasRoomFor) {
+  load("memory_mb = 32\n");
+  board::ControlDesk desk([this] { return box_->report(); }, *box_, settings_->told().start);
+  for (drivers::ControlClient client = 1; client <= 64; ++client) {
+    ASSERT_FALSE(desk.handle(client, "1 record"));
+    ASSERT_FALSE(desk.handle(client, "1 lamp 500"));
+    turns(1);  // the tracking takes what was asked; nobody fetches the answers
+  }
+  for (const char* line : {"1 record", "1 lamp 500"}) {
+    const auto refused = desk.handle(65, line);
+    ASSERT_TRUE(refused) << line;
+    EXPECT_NE(refused->find("the box has too much to do, ask again"), std::string::npos);
+  }
+  EXPECT_TRUE(desk.handle(65, "1 status")) << "who asks how it is doing hears it";
+  box_->stop();
+}
+
+TEST(BoxRecording, WhoWaitsForOneHearsOfItFromABoxThatEnds) {
+  Daemon box;
+  box.write_simulated_settings(
+      "script = true\n[record]\nfolder = \".\"\nmemory_mb = 64\nfields_after = 120\n");
+  ASSERT_TRUE(box.start_and_wait()) << box.said();
+  Answered asked;
+  std::thread client([&] { asked = box.ask({"record"}); });
+  static_cast<void>(box.wait_for("\"asked\":1", std::chrono::seconds(20)));
+
+  box.signal(SIGTERM);
+
+  EXPECT_EQ(box.wait_for_end(std::chrono::seconds(20)), 0) << box.said();
+  client.join();
+  EXPECT_EQ(asked.status, 0) << asked.err;
+  EXPECT_TRUE(asked.out.starts_with("written: ")) << asked.out;
 }
 
 TEST(BoxRecording, IsAskedForByTheControlProgramAndReplays) {

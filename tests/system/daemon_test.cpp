@@ -118,6 +118,16 @@ TEST(DaemonSystem, EndsWithTheTerminalThatItWasStartedIn) {
   EXPECT_TRUE(has(box.said(), "tubesightd: stopped\n")) << "the lamp went dark: " << box.said();
 }
 
+TEST(DaemonSystem, SignalsThatNobodyMeantEndItAsOthersDo) {
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGALRM}) {
+    Daemon box;
+    box.write_settings("");
+    ASSERT_TRUE(box.start_and_wait()) << box.said();
+    box.signal(signal);
+    EXPECT_EQ(box.wait_for_end(kLong), 0) << signal << ": " << box.said();
+  }
+}
+
 TEST(DaemonSystem, GoesOnWithoutFieldsWhenTheRecordingHasEnded) {
   Daemon box;
   box.write_settings("at_end = \"end\"\nscript = true\n");

@@ -95,6 +95,7 @@ TEST_F(RecorderBench, RecordsOneDisagreementOnce) {
   steps(10);
   reply(core::ClaimVerdict::kConfirmed);
   step();
+  since_start_ += std::chrono::seconds(30);
   reply(core::ClaimVerdict::kContradicted, {5, 5});
   step();
   steps(10);
@@ -106,6 +107,56 @@ TEST_F(RecorderBench, RecordsOneDisagreementOnce) {
   // Nothing is written twice, and nothing between is left out.
   EXPECT_EQ(store_.recordings[1].steps[0].field.number,
             store_.recordings[0].steps.back().field.number + 1);
+}
+
+TEST_F(RecorderBench, ARobotThatIsWrongWithoutEndLeavesOlderRecordingsOnTheDisk) {
+  configure();
+  for (int second = 0; second < 59; ++second) {
+    reply(core::ClaimVerdict::kContradicted, {1 + second % 2, 1});
+    steps(50);
+    write_all();
+  }
+  EXPECT_EQ(store_.recordings.size(), 2U) << "at 0 s and 31 s: that of 30 s is shown already";
+  const RecorderCounters counters = recorder_->counters();
+  EXPECT_EQ(counters.asked, 2U);
+  EXPECT_EQ(counters.spared, 15U + 14U) << "each second claim is the one that was recorded";
+}
+
+TEST_F(RecorderBench, WhatIsClaimedStillAfterTheTimeBetweenIsRecorded) {
+  configure();
+  reply(core::ClaimVerdict::kContradicted, {1, 1});
+  steps(50);
+  for (int second = 1; second <= 40; ++second) {
+    reply(core::ClaimVerdict::kContradicted, {2, 1});
+    steps(50);
+  }
+  write_all();
+
+  ASSERT_EQ(store_.recordings.size(), 2U);
+  EXPECT_EQ(store_.recordings[1].field, 30 * 50);
+  EXPECT_EQ(recorder_->counters().spared, 29U);
+}
+
+TEST_F(RecorderBench, NothingElseIsSpared) {
+  configure();
+  reply(core::ClaimVerdict::kContradicted, {1, 1});
+  steps(20);
+  output_->sighting.state = core::TrackState::kLost;
+  steps(20);
+  recorder_->request();
+  steps(20);
+  reply(core::ClaimVerdict::kContradicted, {2, 1});
+  steps(20);
+  since_start_ = -2 * next_ * kFieldSpan;  // another source's time
+  reply(core::ClaimVerdict::kContradicted, {2, 1});
+  steps(20);
+  write_all();
+
+  ASSERT_EQ(store_.recordings.size(), 4U);
+  EXPECT_EQ(store_.recordings[1].reason, RecordingReason::kTrackLost);
+  EXPECT_EQ(store_.recordings[2].reason, RecordingReason::kCommand);
+  EXPECT_EQ(store_.recordings[3].reason, RecordingReason::kDisagreement);
+  EXPECT_EQ(recorder_->counters().spared, 1U);
 }
 
 TEST_F(RecorderBench, RecordsALostTrackOnceAndNothingItIsToldNotTo) {

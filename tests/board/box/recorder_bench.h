@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,7 @@
 namespace tubesight::board {
 
 inline constexpr std::size_t kStateBytes = 1000;
+inline constexpr core::FieldTime kFieldSpan = std::chrono::milliseconds(20);
 
 /// Holds recordings in memory; fails where it is told to.
 class FakeRecordingStore final : public hal::RecordingStore {
@@ -99,6 +101,7 @@ class RecorderBench : public ::testing::Test {
   void step() {
     core::Field& field = input_->field;
     field.number = next_++;
+    field.mid_exposure = since_start_ + field.number * kFieldSpan;
     field.parity = field.number % 2 == 0 ? core::Parity::kEven : core::Parity::kOdd;
     std::fill(frame_.begin(), frame_.end(), static_cast<std::uint8_t>(field.number));
     field.pixels = core::field_of({frame_.data(), 640, 480, 640}, field.parity);
@@ -137,6 +140,7 @@ class RecorderBench : public ::testing::Test {
   std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
   std::vector<std::uint8_t> frame_ = std::vector<std::uint8_t>(640UL * 480UL);
   std::int64_t next_ = 0;
+  core::FieldTime since_start_{0};  ///< of what would be field 0
   int states_ = 0;
 };
 

@@ -91,6 +91,10 @@ TEST_F(BoxSettingsTest, ARecorderMustHoldItsFields) {
   EXPECT_TRUE(told("record.folder: missing"));
   EXPECT_FALSE(load(record + "folder = \"\"\n"));
   EXPECT_TRUE(told("box.toml:6: record.folder: '', expected the path of a folder"));
+  EXPECT_FALSE(load(record + "folder = \"box.toml\"\n"));
+  EXPECT_TRUE(told("box.toml:6: record.folder: '" + folder_.path("box.toml") +
+                   "' is no folder, expected one, or none yet"));
+  EXPECT_TRUE(load(record + "folder = \".\"\n")) << messages_.front();
   EXPECT_FALSE(load(record + "folder = \"x\"\nmemory_mb = 64\ndisk_mb = 63\n"));
   EXPECT_TRUE(told("record.disk_mb: 63, expected room for a recording of memory_mb = 64"));
   EXPECT_FALSE(load(record + "folder = \"x\"\nmemory_mb = 8\n"));

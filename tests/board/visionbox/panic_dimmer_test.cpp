@@ -71,7 +71,7 @@ TEST(PanicDimmerDeathTest, AnExceptionOfAnyThreadMakesTheLampDark) {
 }
 
 TEST(PanicDimmerDeathTest, ADeadlySignalMakesTheLampDarkAndStaysTheDeath) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
     EXPECT_EXIT(
         {
           const LitProgram program;
@@ -79,6 +79,32 @@ TEST(PanicDimmerDeathTest, ADeadlySignalMakesTheLampDarkAndStaysTheDeath) {
         },
         ::testing::KilledBySignal(signal), "\\[lit\\]\\[dark\\].*panic: SIG[A-Z]+: the lamp");
   }
+}
+
+/// Recursion that no compiler turns into a loop.
+// NOLINTNEXTLINE(misc-no-recursion)
+int overflow(int depth) {
+  volatile char page[1024];
+  page[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : overflow(depth + 1) + page[0];
+}
+
+TEST(PanicDimmerDeathTest, AStackThatOverflowsMakesTheLampDark) {
+  EXPECT_EXIT(
+      {
+        const LitProgram program;
+        static_cast<void>(overflow(1) == 7);
+      },
+      ::testing::KilledBySignal(SIGSEGV), "\\[lit\\]\\[dark\\].*panic: SIGSEGV: the lamp is dark");
+  EXPECT_EXIT(
+      {
+        const LitProgram program;
+        std::thread([] {
+          use_signal_stack();
+          static_cast<void>(overflow(1) == 7);
+        }).join();
+      },
+      ::testing::KilledBySignal(SIGSEGV), "\\[lit\\]\\[dark\\].*panic: SIGSEGV: the lamp is dark");
 }
 
 /// Tries to be lit again as soon as it is dark, as a thread may that goes on.

@@ -113,8 +113,11 @@ TEST_F(WriterTest, WritesAndSaysWhere) {
 TEST_F(WriterTest, AFolderThatComesLaterGetsWhatWaited) {
   start();
   const std::uint32_t number = record();
-  EXPECT_EQ(wait_for(number).state, RecordAnswer::State::kNotWritten);
-  EXPECT_NE(wait_for(number).words.find("kept: cannot be read"), std::string::npos);
+  const RecordAnswer waits = wait_for(number);
+  EXPECT_EQ(waits.state, RecordAnswer::State::kWaits) << "it is not lost";
+  EXPECT_TRUE(waits.words.starts_with("not written yet, waits for the folder: " + settings_.folder +
+                                      ": cannot be read: "))
+      << waits.words;
   RecorderReport report = writer_->report();
   EXPECT_FALSE(report.open);
   EXPECT_NE(report.trouble.find("kept: cannot be read"), std::string::npos);
@@ -147,6 +150,45 @@ TEST_F(WriterTest, ADiskThatGoesIsTriedAgain) {
   std::filesystem::create_directory(settings_.folder);
   EXPECT_EQ(wait_for(record()).state, RecordAnswer::State::kWritten);
   EXPECT_EQ(writer_->report().trouble, "");
+}
+
+TEST_F(WriterTest, WhoWaitsWhenItEndsHearsThatNothingCame) {
+  std::filesystem::create_directory(settings_.folder);
+  start();
+  const std::uint32_t number = recorder_.request();  // no field shows it
+  writer_->stop();
+  EXPECT_EQ(writer_->answer(number).state, RecordAnswer::State::kNotWritten);
+  EXPECT_EQ(writer_->answer(number).words, "the box ended before it was written");
+}
+
+TEST_F(WriterTest, AFolderThatNeverCameIsSaidWhenItEnds) {
+  start();
+  const std::uint32_t number = record();
+  writer_->stop();
+  const RecordAnswer answer = writer_->answer(number);
+  EXPECT_EQ(answer.state, RecordAnswer::State::kNotWritten);
+  EXPECT_TRUE(answer.words.starts_with("the box ended before it was written: " + settings_.folder +
+                                       ": cannot be read"))
+      << answer.words;
+}
+
+TEST_F(WriterTest, ASecondBoxWaitsUntilTheFirstIsGone) {
+  std::filesystem::create_directory(settings_.folder);
+  auto first = std::make_unique<drivers::RecordingFolder>(settings_.folder, 1 << 20);
+  ASSERT_TRUE(first->open());
+  start();
+  const std::uint32_t number = record();
+  const std::string why = settings_.folder + ": another box records there";
+  EXPECT_NE(wait_for(number).words.find(why), std::string::npos) << wait_for(number).words;
+  EXPECT_EQ(said(), "recorder: " + why + "\n");
+  first.reset();
+
+  const MonotonicTime until = monotonic_now() + std::chrono::seconds(20);
+  while (writer_->answer(number).state != RecordAnswer::State::kWritten &&
+         monotonic_now() < until) {
+    sleep_until(monotonic_now() + std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(writer_->answer(number).state, RecordAnswer::State::kWritten);
 }
 
 TEST_F(WriterTest, WhatWasHandedOverIsWrittenBeforeItEnds) {

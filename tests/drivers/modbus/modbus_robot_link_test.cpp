@@ -1,7 +1,9 @@
 #include "drivers/modbus/modbus_robot_link.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
+#include <thread>
 
 #include "tests/drivers/modbus/link_bench.h"
 #include "tests/drivers/modbus/link_on_line.h"
@@ -281,6 +283,23 @@ TEST(ModbusRobotLink, ComesBackAfterTheLineWasPulledInTheMiddleOfAFrame) {
   const Bytes reopenings = ask(*line, {3, 2, 22, 0, 2});
   ASSERT_EQ(reopenings.size(), 6u);
   EXPECT_EQ(long_at(reopenings, 2), 1u);
+}
+
+TEST(ModbusRobotLink, CallsAtItsThreadsStartWhatItIsGiven) {
+  static std::atomic<int> calls{0};
+  static std::thread::id caller;
+  const Pty line;
+  const tests::SteadyClock clock;
+  ModbusRobotLink link(settings_for(line.device()), tests::make_identity(), clock, [] {
+    caller = std::this_thread::get_id();
+    ++calls;
+  });
+  ASSERT_TRUE(link.start());
+  EXPECT_EQ(ask(line, kReadMark), kMark);
+  link.stop();
+
+  EXPECT_EQ(calls, 1);
+  EXPECT_NE(caller, std::this_thread::get_id());
 }
 
 TEST(ModbusRobotLink, DoesNotStartWithoutItsLine) {

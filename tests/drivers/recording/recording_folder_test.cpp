@@ -1,6 +1,7 @@
 #include "drivers/recording/recording_folder.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,27 @@ TEST(RecordingFolder, RemovesRemainsWhenOpened) {
   ASSERT_EQ(names.size(), 6U);
   EXPECT_EQ(names[5], "other.y4m.321-0.part");
   EXPECT_TRUE(names[0].starts_with(name_of(1)) && names[4].starts_with(name_of(1)));
+}
+
+TEST(RecordingFolder, ASecondBoxRemovesNothingOfTheFirstAndGetsItWhenThatIsGone) {
+  const TemporaryFolder folder;
+  RecordingFolder second(folder.path("."), 300);
+  {
+    RecordingFolder first(folder.path("x/.."), 300);
+    std::filesystem::create_directory(folder.path("x"));
+    ASSERT_TRUE(first.open());
+    ASSERT_TRUE(first.open()) << "its own claim is not in its way";
+    folder.write(name_of(1) + ".meta.csv", "x");
+    folder.write(name_of(1) + ".y4m.321-0.part", "x");
+
+    EXPECT_EQ(second.open().error(), core::Error::kNotReady);
+    EXPECT_EQ(second.message(), folder.path(".") + ": another box records there");
+    EXPECT_EQ(
+        sorted_names(folder),
+        (std::vector<std::string>{name_of(1) + ".meta.csv", name_of(1) + ".y4m.321-0.part", "x"}));
+  }
+  EXPECT_TRUE(second.open()) << second.message();
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"x"}) << "remains, now";
 }
 
 TEST(RecordingFolder, TellsThatItIsNotThere) {
