@@ -140,6 +140,7 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   drop_strangers(found);
   complete(stretched, found);
   find_centers(found);  // by centres now, as those before were by the ellipses' own
+  weigh_all(stretched, found);
   count_from_zero(found);
   return found.elements.empty() ? FinderRefusal::kNoLattice : FinderRefusal::kNone;
 }
@@ -331,6 +332,16 @@ bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::in
   element.center_px = map.center_of(element.ellipse);
   entry(row, column) = static_cast<std::int16_t>(found.elements.size());
   return found.elements.try_push_back(element);
+}
+
+/// The centroids of the elements' areas, by their pixels: what an edge fitted by an ellipse is bent
+/// by, and that the light across an element is uneven, does not enter.
+void LatticeFinder::weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
+  for (LatticeElement& element : found.elements) {
+    Ellipse spot = element.ellipse;
+    static_cast<void>(weigh_spot(stretched, room_of(spot, found.steps), spot));
+    element.centroid_px = spot.center_px;
+  }
 }
 
 void LatticeFinder::count_from_zero(FoundLattice& found) {

@@ -26,6 +26,8 @@ struct LatticeElement {
   Ellipse ellipse;  ///< its outline; of the spot's pixels where the edge was not measured
   /// The image of its centre, by the lattice around it. The ellipse's own centre is not it.
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
+  /// The centroid of its area in the picture, for what is predicted as such.
+  Eigen::Vector2d centroid_px = Eigen::Vector2d::Zero();
   double share = 0.0;   ///< of the outline that was measured; 0: none of it
   double rms_px = 0.0;  ///< of the edge's points from the ellipse
 };
@@ -81,6 +83,7 @@ class LatticeFinder {
   bool try_place(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t row,
                  std::int32_t column, FoundLattice& found);
   void find_centers(FoundLattice& found);
+  static void weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   static void count_from_zero(FoundLattice& found);
   [[nodiscard]] MapPoints around(const FoundLattice& found, std::int32_t row, std::int32_t column,
                                  bool with_itself) const;

@@ -33,7 +33,13 @@ struct Window {
   }
 };
 
-// What is nearer to the level around than this share is noise.
+// The inside whose mean is the spot's level, in half axes, where the spot is large enough to have
+// one.
+constexpr double kInner = 0.6;
+constexpr double kLeastPlain_px = 5.0;
+
+// What is nearer to the level around than this share is noise. Of a large spot what is as near to
+// its own level is inside, however the light goes across it; a small one's pixels are all edge.
 constexpr double kFloor = 0.1;
 
 }  // namespace
@@ -56,27 +62,35 @@ double weigh_spot(const picture::AveragedPicture& picture, double room_px, Ellip
   window.center_px = ellipse.center_px;
   window.inverse = ellipse.shape_px2.inverse();
   window.reach2 = reach * reach;
-  double dark = std::numeric_limits<double>::max();
+  double darkest = std::numeric_limits<double>::max();
+  double inside = 0.0;
+  double inner = 0.0;
   double bright = 0.0;
   double count = 0.0;
   const double outer = 0.5 * (1.0 + reach);
   window.walk(picture, [&](const Eigen::Vector2d&, std::int32_t grey, double distance2) {
-    dark = std::min<double>(dark, grey);
+    darkest = std::min<double>(darkest, grey);
+    if (distance2 < kInner * kInner) {
+      inside += grey;
+      inner += 1.0;
+    }
     if (distance2 > outer * outer) {
       bright += grey;
       count += 1.0;
     }
   });
   bright = count > 0.0 ? bright / count : 0.0;
+  const double dark = half > kLeastPlain_px ? inside / inner : darkest;
   if (!(bright - dark > picture::kGreyScale)) {
     return 0.0;
   }
+  const double top = half > kLeastPlain_px ? kFloor : 0.0;
   double sum = 0.0;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
   window.walk(picture, [&](const Eigen::Vector2d& off, std::int32_t grey, double) {
     const double share = (bright - grey) / (bright - dark);
-    const double weight = std::max(0.0, (share - kFloor) / (1.0 - kFloor));
+    const double weight = std::clamp((share - kFloor) / (1.0 - kFloor - top), 0.0, 1.0);
     sum += weight;
     mean += weight * off;
     square += weight * off * off.transpose();
