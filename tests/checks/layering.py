@@ -34,7 +34,7 @@ MAY_INCLUDE = {
     "core/pose": POSE,
     "core/kinematics": BASE + MATH,
     "core/detection": BASE + MATH + ["core/picture", "core/pose"],
-    "core/calibration": POSE + ["core/pose", "core/kinematics"],
+    "core/calibration": POSE + ["core/pose", "core/detection", "core/kinematics"],
     "core/lighting": BASE + ["core/edges"],
     "core/verification": BASE + MATH + ["core/tubesheet", "core/tracking", "core/pose"],
     "core/overlay": BASE + ["core/camera", "core/tubesheet"],
