@@ -11,10 +11,10 @@
 
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/pose_rows.h"
+#include "board/bench/output/still_averager.h"
 #include "board/bench/output/still_reader.h"
 #include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_overlay.h"
-#include "board/bench/pose/pose_pictures.h"
 #include "board/bench/pose/pose_starts.h"
 #include "board/bench/pose/pose_text.h"
 #include "board/bench/pose/pose_words.h"
