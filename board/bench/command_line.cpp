@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/campaign/campaign_command.h"
 #include "board/bench/campaign/campaign_options.h"
 #include "board/bench/devices/devices_command.h"
@@ -156,6 +157,22 @@ CLI::App* add_look(CLI::App& app, LookOptions& options) {
   return look;
 }
 
+CLI::App* add_calibrate(CLI::App& app, CalibrateCameraOptions& options, std::string& what) {
+  CLI::App* const calibrate = app.add_subcommand(
+      "calibrate", "The camera's internal parameters from views of a dot template");
+  calibrate->add_option("WHAT", what, "What is calibrated: camera")
+      ->required()
+      ->check(CLI::IsMember({"camera"}));
+  calibrate
+      ->add_option("TARGET.toml", options.target, "Template and views: camera, target, view (TOML)")
+      ->required();
+  calibrate
+      ->add_option("--out", options.out,
+                   "Write the settings found; those that stood there are kept as FILE.bak")
+      ->option_text("FILE.toml");
+  return calibrate;
+}
+
 CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::App* const campaign = app.add_subcommand(
       "campaign", "Random plants, cameras, paths and faults: counts what the box says wrong");
@@ -255,6 +272,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const pose = add_pose(app, pose_options);
   LookOptions look_options;
   const CLI::App* const look = add_look(app, look_options);
+  CalibrateCameraOptions calibrate_options;
+  std::string what;
+  const CLI::App* const calibrate = add_calibrate(app, calibrate_options, what);
   CampaignOptions campaign_options;
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
@@ -271,6 +291,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   }
   if (pose->parsed()) {
     return run_pose(pose_options);
+  }
+  if (calibrate->parsed()) {
+    return run_calibrate_camera(calibrate_options);
   }
   if (look->parsed()) {
     return run_look(look_options);

@@ -19,7 +19,7 @@ _tubesight() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
       -*) _tubesight_words -h --help --version ;;
-      *) _tubesight_words replay pose look simulate campaign devices ;;
+      *) _tubesight_words replay pose look calibrate simulate campaign devices ;;
     esac
     return
   fi
@@ -37,6 +37,10 @@ _tubesight() {
     look)
       options="-h --help"
       taking="--csv --overlay"
+      ;;
+    calibrate)
+      options="-h --help"
+      taking="--out"
       ;;
     simulate)
       options="-h --help --window-only"
@@ -67,6 +71,7 @@ _tubesight() {
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
+    calibrate--out) _tubesight_files .toml && return ;;
     simulate--out) _tubesight_files "" && return ;;
   esac
   case " $taking " in
@@ -87,7 +92,8 @@ _tubesight() {
     esac
   done
   case $command$position in
-    replay0 | pose0 | simulate0) _tubesight_files .toml ;;
+    calibrate0) _tubesight_words camera ;;
+    replay0 | pose0 | simulate0 | calibrate1) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
     campaign*) _tubesight_files .csv ;; # more of --merge

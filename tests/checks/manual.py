@@ -31,6 +31,8 @@ OFFERED = [
     ("look ", "b.y4m c.y4m.xz d.png e.pgm"),
     ("look d.png --csv ", "f.csv"),
     ("look d.png --overlay ", "d.png"),
+    ("calibrate camera ", "a.toml"),
+    ("calibrate camera a.toml --out ", "a.toml"),
     ("simulate ", "a.toml"),
     ("campaign --moves ", ""),
     ("campaign --resume ", "f.csv"),
