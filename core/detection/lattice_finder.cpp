@@ -39,6 +39,10 @@ constexpr double kLeastMeasured_px = 6.5;
 // Above this one the light across it is uneven, and its pixels say it better.
 constexpr double kMostWeighed_px = 10.0;
 
+// One that stands out less than this share of its neighbours' mean is none; the lamp's light falls
+// by less from one to the next.
+constexpr double kFaint = 0.25;
+
 // Nothing smaller is looked for where no spot was found.
 constexpr double kLeastLookedFor_px = 2.0;
 
@@ -93,11 +97,11 @@ bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps
 
 /// The same for an element too small for that; it must be as dark as its neighbour.
 bool look_for_spot(const picture::AveragedPicture& stretched, const Ellipse& neighbour,
-                   const Steps& steps, LatticeElement& element) {
+                   const Steps& steps, double least_contrast, LatticeElement& element) {
   Ellipse other = neighbour;
   const double usual = weigh_spot(stretched, room_of(other, steps), other);
   const double contrast = weigh_spot(stretched, room_of(element.ellipse, steps), element.ellipse);
-  return contrast > 0.0 && contrast > kLeastContrast * usual;
+  return usual > 0.0 && contrast > std::max(least_contrast, kLeastContrast * usual);
 }
 
 /// The picture with dark elements and its darkest at zero.
@@ -123,6 +127,7 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   TUBESIGHT_ASSERT(scratch.size() >= static_cast<std::size_t>(picture.width_px) *
                                          static_cast<std::size_t>(picture.height_px));
   found.elements.clear();
+  least_contrast_ = options.least_contrast;
   if (const FinderRefusal refusal = find_blobs(picture, options); refusal != FinderRefusal::kNone) {
     return refusal;
   }
@@ -137,6 +142,7 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   const picture::AveragedPicture stretched = stretch(picture, found.dark, scratch);
   measure_all(stretched, found);
   find_centers(found);
+  weigh_all(stretched, found);
   drop_strangers(found);
   complete(stretched, found);
   find_centers(found);  // by centres now, as those before were by the ellipses' own
@@ -236,8 +242,9 @@ void LatticeFinder::drop_strangers(FoundLattice& found) {
     for (std::int32_t i = 0; i < before; ++i) {
       const LatticeElement element = found.elements[i];
       LocalMap map;
-      if (!map.fit(around(found, element.row, element.column, false)) ||
-          fits(map, element.ellipse, found.steps, kStranger)) {
+      if (!is_faint(found, element) &&
+          (!map.fit(around(found, element.row, element.column, false)) ||
+           fits(map, element.ellipse, found.steps, kStranger))) {
         found.elements[kept++] = element;
       }
     }
@@ -247,6 +254,20 @@ void LatticeFinder::drop_strangers(FoundLattice& found) {
       break;
     }
   }
+}
+
+/// Whether an element stands out far less than its neighbours: a smudge where one would be.
+bool LatticeFinder::is_faint(const FoundLattice& found, const LatticeElement& element) const {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::int32_t i = 0; i < 9; ++i) {
+    const std::int16_t k = entry(element.row + i / 3 - 1, element.column + i % 3 - 1);
+    if (k >= 0 && i != 4 && found.elements[k].contrast >= 0.0) {
+      sum += found.elements[k].contrast;
+      count += 1.0;
+    }
+  }
+  return element.contrast >= 0.0 && element.contrast * count < kFaint * sum;
 }
 
 void LatticeFinder::measure_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
@@ -324,7 +345,8 @@ bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::in
   element.column = column;
   element.ellipse = expected;
   if (!(half_axes(expected).y() < kLeastMeasured_px
-            ? look_for_spot(stretched, found.elements[from].ellipse, found.steps, element)
+            ? look_for_spot(stretched, found.elements[from].ellipse, found.steps, least_contrast_,
+                            element)
             : look_for_edge(stretched, found.steps, element_, element)) ||
       !fits(map, element.ellipse, found.steps, kNewcomer)) {
     return false;
@@ -339,7 +361,7 @@ bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::in
 void LatticeFinder::weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
   for (LatticeElement& element : found.elements) {
     Ellipse spot = element.ellipse;
-    static_cast<void>(weigh_spot(stretched, room_of(spot, found.steps), spot));
+    element.contrast = weigh_spot(stretched, room_of(spot, found.steps), spot);
     element.centroid_px = spot.center_px;
   }
 }

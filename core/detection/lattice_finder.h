@@ -28,8 +28,9 @@ struct LatticeElement {
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
   /// The centroid of its area in the picture, for what is predicted as such.
   Eigen::Vector2d centroid_px = Eigen::Vector2d::Zero();
-  double share = 0.0;   ///< of the outline that was measured; 0: none of it
-  double rms_px = 0.0;  ///< of the edge's points from the ellipse
+  double contrast = 0.0;  ///< with what is around, grey levels; -1: at the picture's edge
+  double share = 0.0;     ///< of the outline that was measured; 0: none of it
+  double rms_px = 0.0;    ///< of the edge's points from the ellipse
 };
 
 /// A lattice found in a picture. 0.1 MB.
@@ -79,6 +80,7 @@ class LatticeFinder {
   void take_places(const Growth& growth, FoundLattice& found);
   void measure_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   void drop_strangers(FoundLattice& found);
+  [[nodiscard]] bool is_faint(const FoundLattice& found, const LatticeElement& element) const;
   void complete(const picture::AveragedPicture& stretched, FoundLattice& found);
   bool try_place(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t row,
                  std::int32_t column, FoundLattice& found);
@@ -98,6 +100,7 @@ class LatticeFinder {
   LatticeGrowth growth_;
   std::array<Growth, 2> grown_;  ///< dark, bright
   ElementScratch element_;
+  double least_contrast_ = 0.0;  ///< of the options of this search
   std::array<std::int16_t, static_cast<std::size_t>(kSide) * kSide> table_{};
 };
 

@@ -57,7 +57,7 @@ double weigh_spot(const picture::AveragedPicture& picture, double room_px, Ellip
   window.bottom = static_cast<std::int32_t>(std::ceil(ellipse.center_px.y() + high));
   if (window.left < 0 || window.top < 0 || window.right >= picture.width_px ||
       window.bottom >= picture.height_px) {
-    return 0.0;
+    return -1.0;
   }
   window.center_px = ellipse.center_px;
   window.inverse = ellipse.shape_px2.inverse();

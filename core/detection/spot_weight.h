@@ -10,7 +10,7 @@ namespace tubesight::core::detection {
 /// or expected before, takes the weighed centre and form.
 ///
 /// Returns the contrast between the spot and what is around in grey levels; 0, and the ellipse as
-/// it was, where the spot reaches the picture's edge or has none.
+/// it was, where there is no spot; -1, and likewise, where its surroundings leave the picture.
 double weigh_spot(const picture::AveragedPicture& picture, double room_px, Ellipse& ellipse);
 
 }  // namespace tubesight::core::detection

@@ -264,6 +264,23 @@ TEST_F(LatticeFinderOn, FalseSpotsBesideTheLatticeLeavesThemOut) {
   expect_all(0.1);
 }
 
+TEST_F(LatticeFinderOn, ASmudgeWhereADotWouldBeLeavesItOut) {
+  drawn_.absent = [](int row, int column) { return row == 7 && column == 8; };
+  const picture::AveragedPicture picture = drawn_.draw();
+  const Eigen::Vector2d at = drawn_.pixel_of(drawn_.center(7, 8));
+  const int u = static_cast<int>(at.x());
+  const int v = static_cast<int>(at.y());
+  for (int i = -9; i <= 9; ++i) {
+    const int half = static_cast<int>(std::sqrt(100.0 - i * i));
+    drawn_.cover(u - half, v + i, u + half, v + i, 166);  // of 180
+  }
+
+  ASSERT_EQ(find(picture), FinderRefusal::kNone);
+
+  EXPECT_EQ(found_->elements.size(), drawn_.rows * drawn_.columns - 1);
+  EXPECT_EQ(compare().surplus, 0);
+}
+
 TEST_F(LatticeFinderOn, NothingSaysSo) {
   drawn_.rows = 0;
   drawn_.columns = 0;

@@ -100,6 +100,8 @@ TEST(SpotWeight, PlacesASmallSpotToAFractionOfAPixel) {
 
   EXPECT_NEAR(weigh_spot({pixels.data(), kSide_px, kSide_px}, 6.0, ellipse), 128.0, 2.0);
   EXPECT_EQ(weigh_spot({pixels.data(), kSide_px, kSide_px}, 6.0, nothing), 0.0);
+  Ellipse at_edge{{2.0, 30.0}, 7.0 * Eigen::Matrix2d::Identity()};
+  EXPECT_EQ(weigh_spot({pixels.data(), kSide_px, kSide_px}, 6.0, at_edge), -1.0);
 
   EXPECT_NEAR(ellipse.center_px.x(), 20.3, 0.025);
   EXPECT_NEAR(ellipse.center_px.y(), 15.8, 0.025);
