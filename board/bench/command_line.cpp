@@ -8,9 +8,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/campaign/campaign_command.h"
 #include "board/bench/campaign/campaign_options.h"
 #include "board/bench/devices/devices_command.h"
+#include "board/bench/look/look_command.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
 #include "board/bench/replay/replay_command.h"
@@ -142,6 +144,35 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   return pose;
 }
 
+CLI::App* add_look(CLI::App& app, LookOptions& options) {
+  CLI::App* const look = app.add_subcommand(
+      "look", "Finds the lattice in pictures with no settings at all: dots or tube-ends");
+  look->add_option("PICTURE", options.pictures,
+                   "Stills: PNG or PGM; or recordings (.y4m, .y4m.xz), their first frame")
+      ->required();
+  look->add_option("--csv", options.csv, "Write one row an element found")->option_text("L.csv");
+  look->add_option("--overlay", options.overlay,
+                   "Write the picture with the elements and their rows and columns")
+      ->option_text("O.png");
+  return look;
+}
+
+CLI::App* add_calibrate(CLI::App& app, CalibrateCameraOptions& options, std::string& what) {
+  CLI::App* const calibrate = app.add_subcommand(
+      "calibrate", "The camera's internal parameters from views of a dot template");
+  calibrate->add_option("WHAT", what, "What is calibrated: camera")
+      ->required()
+      ->check(CLI::IsMember({"camera"}));
+  calibrate
+      ->add_option("TARGET.toml", options.target, "Template and views: camera, target, view (TOML)")
+      ->required();
+  calibrate
+      ->add_option("--out", options.out,
+                   "Write the settings found; those that stood there are kept as FILE.bak")
+      ->option_text("FILE.toml");
+  return calibrate;
+}
+
 CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::App* const campaign = app.add_subcommand(
       "campaign", "Random plants, cameras, paths and faults: counts what the box says wrong");
@@ -239,6 +270,11 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const replay = add_replay(app, options, scalar);
   PoseCommandOptions pose_options;
   const CLI::App* const pose = add_pose(app, pose_options);
+  LookOptions look_options;
+  const CLI::App* const look = add_look(app, look_options);
+  CalibrateCameraOptions calibrate_options;
+  std::string what;
+  const CLI::App* const calibrate = add_calibrate(app, calibrate_options, what);
   CampaignOptions campaign_options;
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
@@ -255,6 +291,12 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   }
   if (pose->parsed()) {
     return run_pose(pose_options);
+  }
+  if (calibrate->parsed()) {
+    return run_calibrate_camera(calibrate_options);
+  }
+  if (look->parsed()) {
+    return run_look(look_options);
   }
   if (campaign->parsed()) {
     return run_campaign(campaign_options, program_version());

@@ -19,7 +19,7 @@ _tubesight() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
       -*) _tubesight_words -h --help --version ;;
-      *) _tubesight_words replay pose simulate campaign devices ;;
+      *) _tubesight_words replay pose look calibrate simulate campaign devices ;;
     esac
     return
   fi
@@ -33,6 +33,14 @@ _tubesight() {
     pose)
       options="-h --help --only-start --average --total"
       taking="--frames --start --csv --covariance --overlay --correct --limit-mm --method --edge"
+      ;;
+    look)
+      options="-h --help"
+      taking="--csv --overlay"
+      ;;
+    calibrate)
+      options="-h --help"
+      taking="--out"
       ;;
     simulate)
       options="-h --help --window-only"
@@ -57,12 +65,13 @@ _tubesight() {
       ;;
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m && return ;;
-    pose--overlay) _tubesight_files .png && return ;;
-    replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | \
+    pose--overlay | look--overlay) _tubesight_files .png && return ;;
+    replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge)
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
+    calibrate--out) _tubesight_files .toml && return ;;
     simulate--out) _tubesight_files "" && return ;;
   esac
   case " $taking " in
@@ -83,9 +92,10 @@ _tubesight() {
     esac
   done
   case $command$position in
-    replay0 | pose0 | simulate0) _tubesight_files .toml ;;
+    calibrate0) _tubesight_words camera ;;
+    replay0 | pose0 | simulate0 | calibrate1) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
-    pose*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
+    pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
     campaign*) _tubesight_files .csv ;; # more of --merge
   esac
 }

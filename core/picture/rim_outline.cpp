@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/assert.h"
+
 namespace tubesight::core::picture {
 namespace {
 
@@ -64,13 +66,9 @@ bool project_rim(const SheetView& view, const Eigen::Vector2d& center_mm, double
   if (!center || length <= 0.0) {
     return false;
   }
-  outline.center_u_px = center->x();
-  outline.center_v_px = center->y();
   const auto arcs =
       static_cast<std::int32_t>(std::clamp<double>(length / arc_px, kFewestArcs, kMaxRimPoints));
   std::array<Eigen::Vector2d, kMaxRimPoints> points;
-  Eigen::Vector2d least = *center;
-  Eigen::Vector2d most = *center;
   for (std::int32_t i = 0; i < arcs; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / arcs;
     const auto pixel = view.to_pixel(Eigen::Vector2d(center_mm + on_circle(angle, radius_mm)));
@@ -78,18 +76,31 @@ bool project_rim(const SheetView& view, const Eigen::Vector2d& center_mm, double
       return false;
     }
     points[static_cast<std::size_t>(i)] = *pixel;
-    least = least.cwiseMin(*pixel);
-    most = most.cwiseMax(*pixel);
+  }
+  outline_through(std::span<const Eigen::Vector2d>(points).first(static_cast<std::size_t>(arcs)),
+                  *center, outline);
+  return true;
+}
+
+void outline_through(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& center,
+                     RimOutline& outline) {
+  TUBESIGHT_ASSERT(points.size() >= 3 && points.size() <= kMaxRimPoints);
+  outline.arcs.clear();
+  outline.center_u_px = center.x();
+  outline.center_v_px = center.y();
+  Eigen::Vector2d least = center;
+  Eigen::Vector2d most = center;
+  for (const Eigen::Vector2d& point : points) {
+    least = least.cwiseMin(point);
+    most = most.cwiseMax(point);
   }
   outline.half_width_px = (most.x() - least.x()) / 2.0;
   outline.half_height_px = (most.y() - least.y()) / 2.0;
-  for (std::int32_t i = 0; i < arcs; ++i) {
-    const auto at = [&](std::int32_t k) {
-      return points[static_cast<std::size_t>((k + arcs) % arcs)];
-    };
-    static_cast<void>(outline.arcs.try_push_back(make_arc(at(i - 1), at(i), at(i + 1), *center)));
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    static_cast<void>(outline.arcs.try_push_back(
+        make_arc(points[(i + count - 1) % count], points[i], points[(i + 1) % count], center)));
   }
-  return true;
 }
 
 }  // namespace tubesight::core::picture

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -36,5 +37,10 @@ struct RimOutline {
 /// False when a part of it has no image.
 [[nodiscard]] bool project_rim(const SheetView& view, const Eigen::Vector2d& center_mm,
                                double radius_mm, double arc_px, RimOutline& outline);
+
+/// The outline through points of a rim's image, in their order around it and at most kMaxRimPoints
+/// of them; a piece's middle is a point, its ends lie half way to the next ones.
+void outline_through(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& center,
+                     RimOutline& outline);
 
 }  // namespace tubesight::core::picture

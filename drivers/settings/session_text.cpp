@@ -6,9 +6,13 @@
 
 namespace tubesight::drivers {
 
-void write_plant(TomlWriter& toml, const core::SessionSettings& settings) {
+void write_camera(TomlWriter& toml, const core::CameraSettings& camera) {
   toml.table("camera");
-  write_keys(toml, kCameraKeys, settings.camera);
+  write_keys(toml, kCameraKeys, camera);
+}
+
+void write_plant(TomlWriter& toml, const core::SessionSettings& settings) {
+  write_camera(toml, settings.camera);
   toml.table("tool");
   write_keys(toml, kToolKeys, settings.tool);
   toml.table("tubesheet");

@@ -33,7 +33,8 @@ MAY_INCLUDE = {
     "core/picture": PICTURE,
     "core/pose": POSE,
     "core/kinematics": BASE + MATH,
-    "core/calibration": POSE + ["core/pose", "core/kinematics"],
+    "core/detection": BASE + MATH + ["core/picture", "core/pose"],
+    "core/calibration": POSE + ["core/pose", "core/detection", "core/kinematics"],
     "core/lighting": BASE + ["core/edges"],
     "core/verification": BASE + MATH + ["core/tubesheet", "core/tracking", "core/pose"],
     "core/overlay": BASE + ["core/camera", "core/tubesheet"],
@@ -61,8 +62,8 @@ BOX = "board/box"
 CORE_STD = set("""algorithm array atomic bit cassert chrono cmath compare concepts cstddef cstdint
     cstdlib cstring iterator limits numbers numeric optional ratio source_location span string_view
     tuple type_traits utility variant version""".split())
-EIGEN_FOLDERS = ("core/base", "core/math", "core/picture", "core/pose", "core/calibration",
-                 "core/kinematics", "core/rendering", "core/verification")
+EIGEN_FOLDERS = ("core/base", "core/math", "core/picture", "core/pose", "core/detection",
+                 "core/calibration", "core/kinematics", "core/rendering", "core/verification")
 
 DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits condition_variable
     cstdarg cstdio deque filesystem functional initializer_list map memory mutex new set string

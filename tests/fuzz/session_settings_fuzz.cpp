@@ -1,5 +1,6 @@
 // Settings: the text is cut at lines "#---" into session.toml, 1.toml, 2.toml ..., so that includes
-// are reached too. Whatever it holds, either settings within their limits, or messages.
+// are reached too. Whatever it holds, either settings within their limits, or messages. The same as
+// the file of a calibration target.
 #include "drivers/settings/session_settings.h"
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/settings/target_settings.h"
 #include "tests/fuzz/cut_files.h"
 
 namespace {
@@ -31,6 +33,21 @@ void check(const core::SessionSettings& settings) {
   require(settings.tubesheet.rows[0] <= settings.tubesheet.rows[1]);
 }
 
+void read_target(std::string_view text) {
+  drivers::TargetFile target;
+  drivers::Messages messages;
+  fuzz::CutFiles files(text, "session.toml");
+  const bool good = drivers::load_target(files, "session.toml", target, messages).has_value();
+  require(good == messages.empty());
+  if (good) {
+    require(target.target.rows >= 2 && target.target.dot_mm < target.target.spacing_mm);
+    require(target.target.row_spacing_mm > 0.0 && !target.views.empty());
+    for (const drivers::ViewSettings& view : target.views) {
+      require(view.points.empty() != view.images.empty());
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -47,5 +64,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (good) {
     check(session->settings);
   }
+  read_target({reinterpret_cast<const char*>(data), size});
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "board/bench/output/csv_cells.h"
 #include "core/math/rotation.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
@@ -14,30 +15,6 @@ namespace tubesight::board {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-
-/// A comma and a number with fixed decimals, half away from zero.
-void append_cell(std::string& out, double value, std::int32_t digits) {
-  out += ',';
-  if (std::isfinite(value) && std::abs(value) < 1e9) {
-    const double scale = std::pow(10.0, digits);
-    drivers::append_decimal(out, std::llround(value * scale), std::llround(scale), digits);
-  }
-}
-
-void append_text(std::string& out, const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) {
-    out += text;
-    return;
-  }
-  out += '"';
-  for (const char character : text) {
-    out += character;
-    if (character == '"') {
-      out += character;
-    }
-  }
-  out += '"';
-}
 
 template <typename To, typename From>
 void append_transform(std::string& out, const core::Transform<To, From>& T) {

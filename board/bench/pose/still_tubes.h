@@ -7,8 +7,8 @@
 #include <string>
 
 #include "board/bench/output/exit_status.h"
+#include "board/bench/output/still_reader.h"
 #include "board/bench/pose/pose_starts.h"
-#include "board/bench/pose/still_reader.h"
 #include "board/bench/pose/tracked_start.h"
 #include "core/base/settings.h"
 #include "core/base/tube_address.h"

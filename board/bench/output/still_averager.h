@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "board/bench/output/exit_status.h"
-#include "board/bench/pose/still_reader.h"
+#include "board/bench/output/still_reader.h"
 #include "core/base/settings.h"
 #include "core/picture/averaged_picture.h"
 #include "core/picture/rest_average.h"

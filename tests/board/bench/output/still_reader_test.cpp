@@ -1,4 +1,4 @@
-#include "board/bench/pose/still_reader.h"
+#include "board/bench/output/still_reader.h"
 
 #include <array>
 #include <string>

@@ -1,4 +1,4 @@
-#include "board/bench/pose/pose_pictures.h"
+#include "board/bench/output/still_averager.h"
 
 #include <array>
 #include <cstddef>

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "board/bench/output/exit_status.h"
+
+namespace tubesight::board {
+
+/// The arguments of `tubesight calibrate camera`; an empty path is one that was not given.
+struct CalibrateCameraOptions {
+  std::string target;
+  std::string out;
+};
+
+/// `tubesight calibrate camera`: the camera's internal parameters from views of a dot template.
+///
+/// Parameters, their uncertainty and the verdict go to standard output; the settings to `out`,
+/// whose former content is kept as `out.bak`. A calibration that cannot be made, or whose map is
+/// too uncertain for anything, gives one line on standard error and status kJobFailed, and no file.
+[[nodiscard]] ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options);
+
+}  // namespace tubesight::board

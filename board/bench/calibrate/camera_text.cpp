@@ -1,0 +1,194 @@
+#include "board/bench/calibrate/camera_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "drivers/files/decimal.h"
+#include "drivers/settings/session_text.h"
+#include "drivers/settings/toml_writer.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::calibration::CalibrationData;
+using core::calibration::CalibrationOutcome;
+using core::calibration::CalibrationRefusal;
+using core::calibration::CalibrationState;
+using core::calibration::Verdict;
+
+std::string_view use_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kBase: return "base calibration, pose and tracking";
+    case Verdict::kPose: return "pose and tracking; not base calibration";
+    case Verdict::kTracking: return "tracking and position correction only";
+  }
+  return "";
+}
+
+struct Parameter {
+  const char* name;
+  const char* unit;
+  int digits;
+};
+constexpr std::array<Parameter, 6> kParameters = {{{"EFL", " mm", 5},
+                                                   {"h_sx", "", 6},
+                                                   {"c_u", " px", 3},
+                                                   {"c_v", " px", 3},
+                                                   {"k", " per mm2", 6},
+                                                   {"k2", " per mm4", 7}}};
+
+double sigma_of(const CalibrationOutcome& outcome, int i) {
+  return std::sqrt(std::max(0.0, outcome.fit.camera_covariance(i, i)));
+}
+
+double correlation_of(const CalibrationOutcome& outcome, int i, int k) {
+  const double scale = sigma_of(outcome, i) * sigma_of(outcome, k);
+  return i == k ? 1.0 : scale > 0.0 ? outcome.fit.camera_covariance(i, k) / scale : 0.0;
+}
+
+/// The largest correlation of two parameters.
+void append_correlation(std::string& text, const CalibrationOutcome& outcome) {
+  int first = 0;
+  int second = 1;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = i + 1; k < 6; ++k) {
+      if (std::abs(correlation_of(outcome, i, k)) >
+          std::abs(correlation_of(outcome, first, second))) {
+        first = i;
+        second = k;
+      }
+    }
+  }
+  drivers::print(text, "  largest correlation  %.3f, of %s and %s\n",
+                 correlation_of(outcome, first, second),
+                 kParameters[static_cast<std::size_t>(first)].name,
+                 kParameters[static_cast<std::size_t>(second)].name);
+}
+
+/// FNV-1a of a text, for an id that follows the parameters.
+std::string digest_of(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char character : text) {
+    hash = (hash ^ static_cast<std::uint8_t>(character)) * 1099511628211ULL;
+  }
+  std::array<char, 17> hex{};
+  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return hex.data();
+}
+
+}  // namespace
+
+core::CameraSettings calibrated(const core::CameraSettings& known,
+                                const core::calibration::CameraValues& values) {
+  core::CameraSettings camera = known;
+  camera.focal_length_mm = values(0);
+  camera.horizontal_scale = values(1);
+  camera.center_px = {values(2), values(3)};
+  camera.distortion_per_mm2 = values(4);
+  camera.distortion2_per_mm4 = values(5);
+  return camera;
+}
+
+std::string_view explain(CalibrationRefusal refusal) {
+  switch (refusal) {
+    case CalibrationRefusal::kNone: return "";
+    case CalibrationRefusal::kOneView:
+      return "one view leaves EFL and distance open, expected two heights of a stage or several "
+             "tilted poses";
+    case CalibrationRefusal::kEqualHeights:
+      return "all height_mm are equal, expected heights that differ";
+    case CalibrationRefusal::kNoStart:
+      return "EFL or a distance comes out negative: heights swapped, or dots in another order than "
+             "the template's; expected a larger height_mm where the dots look smaller";
+    case CalibrationRefusal::kNoFit:
+      return "the fit does not come to rest: the views contradict each other";
+    case CalibrationRefusal::kUndetermined:
+      return "the views don't determine the camera, whatever their residuals: parallel planes "
+             "without known heights or like poses; expected known heights, or poses tilted by 20 "
+             "to "
+             "40 degrees to different sides";
+    case CalibrationRefusal::kTooUncertain:
+      return "the map from pixels to rays is known to worse than 1 px over the picture: more "
+             "views, "
+             "tilted to different sides and filling the picture";
+    case CalibrationRefusal::kPoorFit:
+      return "the dots are not where this camera would show such a template (more than 1 px RMS): "
+             "wrong spacing or heights, a bowed template, a lens moved between views";
+    case CalibrationRefusal::kManyOutliers:
+      return "more than a tenth of the dots lie off: another template, or dots hidden";
+  }
+  return "";
+}
+
+std::string camera_text(const CalibrationData& data, const CalibrationState& state,
+                        const CalibrationOutcome& outcome) {
+  std::string text;
+  drivers::print(text, "camera from %d views, %d dots", data.views.size(), outcome.fit.dots);
+  if (outcome.left_out > 0) {
+    drivers::print(text, " (%d that lie off are left out)", outcome.left_out);
+  }
+  text += '\n';
+  for (int i = 0; i < 6; ++i) {
+    const Parameter& parameter = kParameters[static_cast<std::size_t>(i)];
+    if (sigma_of(outcome, i) > 0.0) {
+      drivers::print(text, "  %-20s %.*f +- %.*f%s\n", parameter.name, parameter.digits,
+                     state.camera(i), parameter.digits, sigma_of(outcome, i), parameter.unit);
+    }
+  }
+  append_correlation(text, outcome);
+  drivers::print(text,
+                 "  residuals            %.4f px RMS of a dot, %.4f px sigma of a coordinate\n",
+                 outcome.fit.rms_px, outcome.fit.sigma_px);
+  if (outcome.freed.stage_axis) {
+    const double tip =
+        std::acos(std::clamp(state.stage_axis.dot(state.stage.R_camera_target.col(2)), -1.0, 1.0));
+    drivers::print(text, "  stage                stands %.3f deg off the template's normal\n",
+                   tip * 57.29577951308232);
+  }
+  drivers::print(
+      text,
+      "  map uncertainty      %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, "
+      "%.0f)\n",
+      outcome.map.rms_px, outcome.map.worst_px, outcome.map.worst_u_px, outcome.map.worst_v_px);
+  if (outcome.refusal == CalibrationRefusal::kNone) {
+    const std::string_view use = use_of(outcome.verdict);
+    drivers::print(text, "  good for             %.*s\n", static_cast<int>(use.size()), use.data());
+  }
+  if (outcome.verdict != Verdict::kBase || outcome.refusal != CalibrationRefusal::kNone) {
+    drivers::print(text,
+                   "  to better it         a view with dots around (%.0f, %.0f), tilted by 20 to "
+                   "40 deg another way\n",
+                   outcome.map.worst_u_px, outcome.map.worst_v_px);
+  }
+  return text;
+}
+
+std::string camera_settings_text(const core::CameraSettings& camera,
+                                 const CalibrationOutcome& outcome, std::string_view made_at) {
+  drivers::TomlWriter toml(drivers::TomlManner::kPlain);
+  drivers::write_camera(toml, camera);
+  drivers::TomlWriter canonical(drivers::TomlManner::kPlain);
+  drivers::write_camera(canonical, camera);
+  toml.table("camera_quality");
+  toml.text("id", digest_of(canonical.take()));
+  toml.text("made_at", made_at);
+  std::array<double, 6> sigma{};
+  std::string correlation = "[";
+  for (int i = 0; i < 6; ++i) {
+    sigma[static_cast<std::size_t>(i)] = sigma_of(outcome, i);
+    correlation += i > 0 ? ", [" : "[";
+    for (int k = 0; k < 6; ++k) {
+      drivers::print(correlation, k > 0 ? ", %.6f" : "%.6f", correlation_of(outcome, i, k));
+    }
+    correlation += ']';
+  }
+  toml.numbers("sigma", sigma);
+  toml.raw("correlation", correlation + "]");
+  toml.text("verdict", use_of(outcome.verdict));
+  return toml.take();
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/settings.h"
+#include "core/calibration/camera_calibration.h"
+
+namespace tubesight::board {
+
+/// The calibrated camera as settings have it.
+[[nodiscard]] core::CameraSettings calibrated(const core::CameraSettings& known,
+                                              const core::calibration::CameraValues& values);
+
+/// Why there is no calibration, and what to do about it, in one line without a name.
+[[nodiscard]] std::string_view explain(core::calibration::CalibrationRefusal refusal);
+
+/// Parameters with their standard deviations, what the residuals are, what the map is worth, the
+/// verdict, and what would better it: lines for a person.
+[[nodiscard]] std::string camera_text(const core::calibration::CalibrationData& data,
+                                      const core::calibration::CalibrationState& state,
+                                      const core::calibration::CalibrationOutcome& outcome);
+
+/// `[camera]` and `[camera_quality]` as a settings file; `made_at` is an instant in words.
+[[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
+                                               const core::calibration::CalibrationOutcome& outcome,
+                                               std::string_view made_at);
+
+}  // namespace tubesight::board

@@ -1,0 +1,171 @@
+#include "board/bench/calibrate/camera_views.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "core/picture/averaged_picture.h"
+#include "drivers/files/csv_reader.h"
+#include "drivers/files/decimal.h"
+#include "drivers/settings/text_files.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::calibration::CalibrationData;
+using core::calibration::CalibrationView;
+using core::calibration::OrderRefusal;
+using core::calibration::SeenDot;
+using core::calibration::Target;
+using core::calibration::TargetLattice;
+
+// A start needs more, a fit many more; fewer are a wrong file.
+constexpr std::int32_t kLeastPoints = 12;
+
+Target target_of(const drivers::TargetSettings& settings) {
+  Target target;
+  target.rows = settings.rows;
+  target.columns = settings.columns;
+  target.lattice = settings.lattice == drivers::DotLattice::kStaggered ? TargetLattice::kStaggered
+                                                                       : TargetLattice::kSquare;
+  target.spacing_mm = settings.spacing_mm;
+  target.row_spacing_mm = settings.row_spacing_mm;
+  target.dot_mm = settings.dot_mm;
+  target.bright = settings.bright;
+  return target;
+}
+
+/// What was found in place of the template.
+std::string why_no_template(OrderRefusal refusal, const core::detection::FoundLattice& found,
+                            const Target& target) {
+  std::string text = "no template: ";
+  if (refusal == OrderRefusal::kColour) {
+    return text + (found.dark ? "dark dots on bright" : "bright dots on dark") +
+           ", expected dots = \"" + (found.dark ? "dark" : "bright") + "\" of such a template";
+  }
+  if (refusal == OrderRefusal::kForm) {
+    drivers::print(text,
+                   "dots that stand %.2f and %.2f diameters apart, expected what spacing_mm, "
+                   "row_spacing_mm and dot_mm of the target say",
+                   found.steps.column.norm() / 2.0, found.steps.row.norm() / 2.0);
+    return text;
+  }
+  std::int32_t rows = 0;
+  std::int32_t columns = 0;
+  for (const auto& element : found.elements) {
+    rows = std::max(rows, element.row + 1);
+    columns = std::max(columns, element.column + 1);
+  }
+  drivers::print(text,
+                 "%d dots in %d rows and %d columns, expected %d lines of %d, all of which show",
+                 found.elements.size(), rows, columns, target.rows, target.columns);
+  return text;
+}
+
+}  // namespace
+
+CameraViews::CameraViews(const drivers::TargetFile& file)
+    : file_(file),
+      target_(target_of(file.target)),
+      averager_(file.camera),
+      scratch_(static_cast<std::size_t>(file.camera.width_px) *
+               static_cast<std::size_t>(file.camera.height_px)) {}
+
+ExitStatus CameraViews::fail(ExitStatus status, std::string message) {
+  message_ = std::move(message);
+  return status;
+}
+
+ExitStatus CameraViews::read(CalibrationData& data) {
+  data.sensor = core::calibration::sensor_of(file_.camera);
+  data.dot_radius_mm = 0.5 * target_.dot_mm;
+  data.dots.clear();
+  data.views.clear();
+  for (const drivers::ViewSettings& view : file_.views) {
+    CalibrationView next;
+    next.first = data.dots.size();
+    next.staged = view.staged;
+    next.height_mm = view.height_mm;
+    const ExitStatus status =
+        view.points.empty() ? read_images(view, data) : read_points(view, data);
+    if (status != ExitStatus::kDone) {
+      return status;
+    }
+    next.count = data.dots.size() - next.first;
+    if (!data.views.try_push_back(next)) {
+      return fail(ExitStatus::kWrongInput, "view: more than " +
+                                               std::to_string(core::calibration::kMaxViews) +
+                                               " views, expected at most that many");
+    }
+  }
+  return ExitStatus::kDone;
+}
+
+ExitStatus CameraViews::read_images(const drivers::ViewSettings& view, CalibrationData& data) {
+  const StillsRead read = averager_.read(stills_of(view.images, {}));
+  if (read.status != ExitStatus::kDone) {
+    return fail(read.status, read.message);
+  }
+  const std::string& name = view.images.front();
+  if (!(target_.dot_mm > 0.0)) {
+    return fail(ExitStatus::kWrongInput,
+                name + ": target.dot_mm is 0, expected a diameter where dots are to be found");
+  }
+  const auto refusal = finder_->find(read.picture, {}, scratch_, *found_);
+  if (refusal != core::detection::FinderRefusal::kNone) {
+    return fail(ExitStatus::kJobFailed, name + ": no template: no lattice of dots is found");
+  }
+  const OrderRefusal order = core::calibration::order_on_target(*found_, target_, data.dots);
+  if (order != OrderRefusal::kNone) {
+    return fail(ExitStatus::kJobFailed, name + ": " + why_no_template(order, *found_, target_));
+  }
+  return ExitStatus::kDone;
+}
+
+ExitStatus CameraViews::read_points(const drivers::ViewSettings& view, CalibrationData& data) {
+  std::string text;
+  std::string reason;
+  drivers::DiskFiles files;
+  if (!files.read(view.points, text, reason)) {
+    return fail(ExitStatus::kWrongInput, view.points + ": " + reason);
+  }
+  drivers::Messages messages;
+  drivers::CsvReader csv(text, view.points);
+  if (!csv.read_header({"x_mm", "y_mm", "u_px", "v_px"}, messages)) {
+    return fail(ExitStatus::kWrongInput, messages.front());
+  }
+  std::int32_t count = 0;
+  while (csv.next(messages)) {
+    constexpr std::int32_t kDigits = 9;
+    std::array<std::int64_t, 4> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!drivers::parse_decimal(csv.cells()[i], kDigits, values[i])) {
+        return fail(ExitStatus::kWrongInput, csv.place() + drivers::in_quotes(csv.cells()[i]) +
+                                                 ", expected a number with up to 9 decimals");
+      }
+    }
+    constexpr double kUnit = 1e-9;
+    SeenDot dot;
+    dot.place_mm << kUnit * static_cast<double>(values[0]), kUnit * static_cast<double>(values[1]),
+        0.0;
+    dot.seen_px << kUnit * static_cast<double>(values[2]), kUnit * static_cast<double>(values[3]);
+    if (!data.dots.try_push_back(dot)) {
+      return fail(ExitStatus::kWrongInput, csv.place() + "more than " +
+                                               std::to_string(core::calibration::kMaxDots) +
+                                               " points, expected at most that many");
+    }
+    ++count;
+  }
+  if (!messages.empty()) {
+    return fail(ExitStatus::kWrongInput, messages.front());
+  }
+  return count >= kLeastPoints
+             ? ExitStatus::kDone
+             : fail(ExitStatus::kWrongInput, view.points + ": " + std::to_string(count) +
+                                                 " points, expected at least " +
+                                                 std::to_string(kLeastPoints));
+}
+
+}  // namespace tubesight::board

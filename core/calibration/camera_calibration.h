@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/calibration/calibration_data.h"
+#include "core/calibration/camera_fit.h"
+
+namespace tubesight::core::calibration {
+
+/// Why there is no calibration.
+enum class CalibrationRefusal : std::uint8_t {
+  kNone,
+  kOneView,       ///< a single view leaves EFL and distance open
+  kEqualHeights,  ///< the stage's views are all at one height
+  kNoStart,       ///< EFL or a distance comes out negative: heights swapped, a mirrored template
+  kNoFit,         ///< the fit does not come to rest
+  kUndetermined,  ///< the views don't tell the parameters apart, whatever the residuals are
+  kTooUncertain,  ///< they do, but the map is not known to 1 px: the outcome tells what there is
+  kPoorFit,       ///< the dots are not where any camera of this model would show them
+  kManyOutliers,  ///< so many dots off that the template or its order is in doubt
+};
+
+/// What a calibration may be used for, by the map's uncertainty over the picture (its RMS).
+enum class Verdict : std::uint8_t {
+  kBase,      ///< also to calibrate the robot's base: the map is known to 0.05 px
+  kPose,      ///< the tool's pose: 0.15 px
+  kTracking,  ///< tracking and position correction: 1 px
+};
+
+/// The uncertainty of the map from pixels to rays, over the picture: one standard deviation of a
+/// ray's place on the ideal plane, in pixels.
+struct MapUncertainty {
+  double worst_px = 0.0;
+  double rms_px = 0.0;
+  double worst_u_px = 0.0;  ///< where it is worst
+  double worst_v_px = 0.0;
+};
+
+/// How a calibration came out; `state` of the caller has the parameters.
+struct CalibrationOutcome {
+  CalibrationRefusal refusal = CalibrationRefusal::kNone;
+  FitOutcome fit;
+  FitOptions freed;           ///< k2 and the stage's axis only where the residuals asked for it
+  std::int32_t left_out = 0;  ///< dots that lie off by more than six standard deviations
+  MapUncertainty map;
+  Verdict verdict = Verdict::kTracking;
+};
+
+/// The map's uncertainty for a covariance of the camera's parameters.
+[[nodiscard]] MapUncertainty map_uncertainty(const Sensor& sensor, const CameraValues& camera,
+                                             const math::Matrix6d& covariance);
+
+/// Calibrates a camera from views of a template: a start by radial alignment, all parameters and
+/// poses together, dots left out that lie off, k2 where the residuals ask for it, and what the
+/// result is worth. A low residual is no proof: two parallel planes without known heights fit any
+/// EFL, so what is judged is the map's uncertainty.
+[[nodiscard]] CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& state,
+                                                  FitScratch& scratch);
+
+}  // namespace tubesight::core::calibration

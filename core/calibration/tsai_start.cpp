@@ -1,0 +1,190 @@
+#include "core/calibration/tsai_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Geometry>
+
+#include "core/math/small_matrix.h"
+
+namespace tubesight::core::calibration {
+namespace {
+
+/// What the radial alignment tells of a view: all of its pose but the distance, of which the tilt's
+/// sense is open.
+struct Alignment {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< Tx, Ty of the template's origin
+};
+
+Eigen::Vector2d on_sensor(const Sensor& sensor, const Eigen::Vector2d& pixel) {
+  return {sensor.column_mm * (pixel.x() - 0.5 * (sensor.width_px - 1.0)),
+          sensor.row_mm * (pixel.y() - 0.5 * (sensor.height_px - 1.0))};
+}
+
+/// The rotation of the upper left 2 x 2 part; r3 is not negative.
+Eigen::Matrix3d complete(double r1, double r2, double r4, double r5) {
+  const double r3 = std::sqrt(std::max(0.0, 1.0 - r1 * r1 - r2 * r2));
+  const double r6 =
+      (r1 * r4 + r2 * r5 > 0.0 ? -1.0 : 1.0) * std::sqrt(std::max(0.0, 1.0 - r4 * r4 - r5 * r5));
+  Eigen::Vector3d x(r1, r2, r3);
+  Eigen::Vector3d y(r4, r5, r6);
+  x.normalize();
+  y = (y - y.dot(x) * x).normalized();
+  Eigen::Matrix3d rotation;
+  rotation << x.transpose(), y.transpose(), x.cross(y).transpose();
+  return rotation;
+}
+
+bool align(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
+  using Row = Eigen::Matrix<double, 5, 1>;
+  // Ty divides all: the origin goes to the dot that is farthest from the axis that way.
+  std::int32_t farthest = view.first;
+  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+    if (std::abs(on_sensor(data.sensor, data.dots[i].seen_px).y()) >
+        std::abs(on_sensor(data.sensor, data.dots[farthest].seen_px).y())) {
+      farthest = i;
+    }
+  }
+  const Eigen::Vector3d origin = data.dots[farthest].place_mm;
+  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
+  Row right = Row::Zero();
+  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+    const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
+    const Eigen::Vector3d w = data.dots[i].place_mm - origin;
+    Row row;
+    row << d.y() * w.x(), d.y() * w.y(), d.y(), -d.x() * w.x(), -d.x() * w.y();
+    normal += row * row.transpose();
+    right += d.x() * row;
+  }
+  math::Cholesky<5> factor;
+  if (!factor.factor(normal, 1e-12)) {
+    return false;
+  }
+  const Row a = factor.solve(right);  // r1/Ty, r2/Ty, Tx/Ty, r4/Ty, r5/Ty
+  const double sum = a(0) * a(0) + a(1) * a(1) + a(3) * a(3) + a(4) * a(4);
+  const double cross = a(0) * a(4) - a(3) * a(1);
+  const double ty2 = 2.0 / (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * cross * cross)));
+  // The sense in which the images lie on the side of the axis that their places lie on.
+  const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[farthest].seen_px);
+  const double ty = std::copysign(std::sqrt(ty2), d.y());
+  alignment.rotation = complete(a(0) * ty, a(1) * ty, a(3) * ty, a(4) * ty);
+  alignment.shift = Eigen::Vector2d(a(2) * ty, ty) - (alignment.rotation * origin).head<2>();
+  return alignment.rotation.allFinite() && cross > 0.0;
+}
+
+/// Sums of the linear equations f p - d Tz = d (w + height), of EFL f and the distance Tz of the
+/// template's origin.
+struct Distance {
+  double ff = 0.0;
+  double fz = 0.0;
+  double zz = 0.0;
+  double f_right = 0.0;
+  double z_right = 0.0;
+  double right_right = 0.0;
+
+  void add(const CalibrationData& data, const CalibrationView& view, const Alignment& alignment,
+           double height_mm) {
+    for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+      const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
+      const Eigen::Vector3d w = alignment.rotation * data.dots[i].place_mm;
+      const Eigen::Vector2d p = w.head<2>() + alignment.shift;
+      const Eigen::Vector2d right = d * (w.z() + height_mm);
+      ff += p.squaredNorm();
+      fz -= p.dot(d);
+      zz += d.squaredNorm();
+      f_right += p.dot(right);
+      z_right -= d.dot(right);
+      right_right += right.squaredNorm();
+    }
+  }
+  /// What is left for EFL once the distance follows it: how well it is told, and its sum.
+  [[nodiscard]] double weight() const { return ff - fz * fz / zz; }
+  [[nodiscard]] double sum() const { return f_right - fz * z_right / zz; }
+  [[nodiscard]] double distance(double focal) const { return (z_right - fz * focal) / zz; }
+  /// What the equations leave at their best.
+  [[nodiscard]] double rest() const {
+    const double focal = sum() / weight();
+    return right_right - focal * f_right - distance(focal) * z_right;
+  }
+};
+
+/// The other tilt that shows the same by parallel projection.
+Alignment mirrored(Alignment alignment) {
+  alignment.rotation(0, 2) *= -1.0;
+  alignment.rotation(1, 2) *= -1.0;
+  alignment.rotation(2, 0) *= -1.0;
+  alignment.rotation(2, 1) *= -1.0;
+  return alignment;
+}
+
+void set_pose(const Alignment& alignment, double distance, TargetPose& pose) {
+  pose.R_camera_target = alignment.rotation;
+  pose.t_camera_target << alignment.shift, distance;
+}
+
+}  // namespace
+
+bool start_from_views(const CalibrationData& data, CalibrationState& state) {
+  StaticVector<Alignment, kMaxViews> alignments;
+  std::array<Distance, 2> stage;  // of the tilts as they are, and mirrored
+  double weight = 0.0;
+  double sum = 0.0;
+  std::int32_t first_staged = -1;
+  for (std::int32_t i = 0; i < data.views.size(); ++i) {
+    const CalibrationView& view = data.views[i];
+    Alignment alignment;
+    if (!align(data, view, alignment)) {
+      return false;
+    }
+    if (view.staged) {
+      first_staged = first_staged < 0 ? i : first_staged;
+      stage[0].add(data, view, alignment, view.height_mm);
+      stage[1].add(data, view, mirrored(alignment), view.height_mm);
+    } else {
+      Distance one;
+      one.add(data, view, alignment, 0.0);
+      if (one.sum() < 0.0) {
+        alignment = mirrored(alignment);
+        one = {};
+        one.add(data, view, alignment, 0.0);
+      }
+      weight += one.weight();
+      sum += one.sum();
+    }
+    static_cast<void>(alignments.try_push_back(alignment));
+  }
+  const bool other_way = first_staged >= 0 && stage[1].rest() < stage[0].rest();
+  if (first_staged >= 0) {
+    weight += stage[other_way ? 1 : 0].weight();
+    sum += stage[other_way ? 1 : 0].sum();
+  }
+  const double focal = sum / weight;
+  if (!(weight > 0.0) || !(focal > 0.0) || !std::isfinite(focal)) {
+    return false;
+  }
+  state = {};
+  state.camera << focal, 1.0, 0.5 * (data.sensor.width_px - 1.0),
+      0.5 * (data.sensor.height_px - 1.0), 0.0, 0.0;
+  for (std::int32_t i = 0; i < data.views.size(); ++i) {
+    const CalibrationView& view = data.views[i];
+    const Alignment alignment = view.staged && other_way ? mirrored(alignments[i]) : alignments[i];
+    Distance one;
+    one.add(data, view, alignment, 0.0);
+    TargetPose pose;
+    set_pose(alignment, one.distance(focal), pose);
+    if (!(pose.t_camera_target.z() > 0.0)) {
+      return false;
+    }
+    if (i == first_staged) {
+      state.stage = pose;
+      state.stage.t_camera_target -= view.height_mm * state.stage_axis;
+    }
+    static_cast<void>(state.poses.try_push_back(pose));
+  }
+  return true;
+}
+
+}  // namespace tubesight::core::calibration

@@ -1,0 +1,386 @@
+#include "core/detection/lattice_finder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/assert.h"
+#include "core/detection/spot_weight.h"
+
+namespace tubesight::core::detection {
+namespace {
+
+// A bright rim beside a dim sheet wants a low threshold, a dim gap between bright rims a high one.
+constexpr std::array kShares = {0.5, 0.25};
+
+// An element stands where its neighbours say, to these shares of the shorter step: one that a spot
+// shows, and one that was looked for. The next element is a whole step off.
+constexpr double kStranger = 0.3;
+constexpr double kNewcomer = 0.15;
+
+// Its half axes are these shares of those expected, and a fraction of a pixel: a plug's dark inside
+// is smaller, a small dot's form uncertain.
+constexpr double kLeastForm = 0.75;
+constexpr double kMostForm = 1.3;
+constexpr double kForm_px = 0.4;
+
+// An edge measured around a spot has the spot's own form to this.
+constexpr double kLeastOfSpot = 0.85;
+constexpr double kMostOfSpot = 1.2;
+
+// Elements are looked for this far from an edge expected, in shares of the shorter half axis.
+constexpr double kFirstReach = 0.2;
+constexpr double kLeastReach_px = 2.0;
+constexpr double kMostReach_px = 12.0;
+// Once it is found.
+constexpr double kFineReach_px = 2.5;
+
+// Below this half axis an edge is mostly blur, and the spot is weighed.
+constexpr double kLeastMeasured_px = 6.5;
+// Above this one the light across it is uneven, and its pixels say it better.
+constexpr double kMostWeighed_px = 10.0;
+
+// One that stands out less than this share of its neighbours' mean is none; the lamp's light falls
+// by less from one to the next.
+constexpr double kFaint = 0.25;
+
+// Nothing smaller is looked for where no spot was found.
+constexpr double kLeastLookedFor_px = 2.0;
+
+// Of an element that no spot showed, this share of the edge must be seen, or, where it is too small
+// for that, this share of its neighbour's contrast.
+constexpr double kLeastShare = 0.5;
+constexpr double kLeastContrast = 0.5;
+
+/// From one edge to the next, by the shorter step in radii.
+double room_of(const Ellipse& ellipse, const Steps& steps) {
+  const double shorter = std::min(steps.column.norm(), steps.row.norm());
+  return std::max(1.0, (shorter - 2.0) * half_axes(ellipse).y());
+}
+
+/// The half axes of an ellipse where another one is the unit circle.
+Eigen::Vector2d axes_by(const Ellipse& expected, const Ellipse& ellipse) {
+  const Eigen::Matrix2d straight = root_of(expected.shape_px2).inverse();
+  return half_axes({{0.0, 0.0}, straight * ellipse.shape_px2 * straight});
+}
+
+/// Whether an ellipse stands where the map expects an element and has its size and form.
+bool fits(const LocalMap& map, const Ellipse& ellipse, const Steps& steps, double gate) {
+  const Ellipse expected = map.element(steps);
+  if (!(half_axes(expected).y() > 0.0)) {
+    return false;
+  }
+  const double off = (map.center_of(ellipse) - map.to_pixel(Eigen::Vector2d::Zero())).norm();
+  const Eigen::Vector2d axes = axes_by(expected, ellipse);
+  const double slack = kForm_px / half_axes(expected).y();
+  return off < gate * map.shorter_step_px() && axes.x() < kMostForm + slack &&
+         axes.y() > kLeastForm - slack;
+}
+
+/// Measures an element where its ellipse is expected: once from afar, once from near.
+bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps,
+                   ElementScratch& scratch, LatticeElement& element) {
+  const Ellipse expected = element.ellipse;
+  const double room = room_of(expected, steps);
+  const double reach =
+      std::clamp(kFirstReach * half_axes(expected).y(), kLeastReach_px, kMostReach_px);
+  ElementEdge first;
+  ElementEdge edge;
+  if (!measure_element(stretched, expected, {reach, room}, scratch, first) ||
+      !measure_element(stretched, first.ellipse, {kFineReach_px, room}, scratch, edge)) {
+    return false;
+  }
+  element.ellipse = edge.ellipse;
+  element.share = edge.share;
+  element.rms_px = edge.rms_px;
+  return edge.share >= kLeastShare;
+}
+
+/// The same for an element too small for that; it must be as dark as its neighbour.
+bool look_for_spot(const picture::AveragedPicture& stretched, const Ellipse& neighbour,
+                   const Steps& steps, double least_contrast, LatticeElement& element) {
+  Ellipse other = neighbour;
+  const double usual = weigh_spot(stretched, room_of(other, steps), other);
+  const double contrast = weigh_spot(stretched, room_of(element.ellipse, steps), element.ellipse);
+  return usual > 0.0 && contrast > std::max(least_contrast, kLeastContrast * usual);
+}
+
+/// The picture with dark elements and its darkest at zero.
+picture::AveragedPicture stretch(const picture::AveragedPicture& picture, bool dark,
+                                 std::span<std::uint16_t> scratch) {
+  const std::size_t count =
+      static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px);
+  const auto [least, most] = std::minmax_element(picture.pixels, picture.pixels + count);
+  const std::uint16_t low = *least;
+  const std::uint16_t high = *most;
+  for (std::size_t i = 0; i < count; ++i) {
+    scratch[i] =
+        static_cast<std::uint16_t>(dark ? picture.pixels[i] - low : high - picture.pixels[i]);
+  }
+  return {scratch.data(), picture.width_px, picture.height_px};
+}
+
+}  // namespace
+
+FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
+                                  const FinderOptions& options, std::span<std::uint16_t> scratch,
+                                  FoundLattice& found) {
+  TUBESIGHT_ASSERT(scratch.size() >= static_cast<std::size_t>(picture.width_px) *
+                                         static_cast<std::size_t>(picture.height_px));
+  found.elements.clear();
+  least_contrast_ = options.least_contrast;
+  if (const FinderRefusal refusal = find_blobs(picture, options); refusal != FinderRefusal::kNone) {
+    return refusal;
+  }
+  growth_.grow(blobs_, true, grown_[0]);
+  growth_.grow(blobs_, false, grown_[1]);
+  found.dark = grown_[0].places.size() >= grown_[1].places.size();
+  const Growth& growth = grown_[found.dark ? 0 : 1];
+  if (growth.places.empty()) {
+    return FinderRefusal::kNoLattice;
+  }
+  take_places(growth, found);
+  const picture::AveragedPicture stretched = stretch(picture, found.dark, scratch);
+  measure_all(stretched, found);
+  find_centers(found);
+  weigh_all(stretched, found);
+  drop_strangers(found);
+  complete(stretched, found);
+  find_centers(found);  // by centres now, as those before were by the ellipses' own
+  weigh_all(stretched, found);
+  count_from_zero(found);
+  return found.elements.empty() ? FinderRefusal::kNoLattice : FinderRefusal::kNone;
+}
+
+FinderRefusal LatticeFinder::find_blobs(const picture::AveragedPicture& picture,
+                                        const FinderOptions& options) {
+  if (!thresholds_.measure(picture)) {
+    return FinderRefusal::kSize;
+  }
+  // A texture makes thousands of small spots; what is sought may be larger.
+  BlobLimits limits = options.blobs;
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    blobs_.clear();
+    bool all = true;
+    for (const double share : kShares) {
+      if (!thresholds_.choose(share, options.least_contrast)) {
+        return FinderRefusal::kFlat;
+      }
+      all = scan_.scan(picture, thresholds_, limits, blobs_) && all;
+    }
+    if (all) {
+      return FinderRefusal::kNone;
+    }
+    limits.least_area_px2 *= 3.0;
+  }
+  return FinderRefusal::kTooMany;
+}
+
+bool LatticeFinder::in_table(std::int32_t row, std::int32_t column) const {
+  return std::min(row, column) >= -kMargin && std::max(row, column) < kSide - kMargin;
+}
+
+std::int16_t& LatticeFinder::entry(std::int32_t row, std::int32_t column) {
+  return table_[static_cast<std::size_t>((row + kMargin) * kSide + column + kMargin)];
+}
+
+std::int16_t LatticeFinder::entry(std::int32_t row, std::int32_t column) const {
+  return in_table(row, column)
+             ? table_[static_cast<std::size_t>((row + kMargin) * kSide + column + kMargin)]
+             : std::int16_t{-1};
+}
+
+void LatticeFinder::fill_table(const FoundLattice& found) {
+  table_.fill(-1);
+  for (std::int32_t i = 0; i < found.elements.size(); ++i) {
+    entry(found.elements[i].row, found.elements[i].column) = static_cast<std::int16_t>(i);
+  }
+}
+
+void LatticeFinder::take_places(const Growth& growth, FoundLattice& found) {
+  found.steps = growth.steps;
+  for (const Place& place : growth.places) {
+    LatticeElement element;
+    element.row = place.row;
+    element.column = place.column;
+    element.ellipse = blobs_[place.blob].ellipse;
+    element.center_px = element.ellipse.center_px;
+    static_cast<void>(found.elements.try_push_back(element));
+  }
+  fill_table(found);
+}
+
+/// The elements up to two steps off, or three where that is few.
+MapPoints LatticeFinder::around(const FoundLattice& found, std::int32_t row, std::int32_t column,
+                                bool with_itself) const {
+  MapPoints points;
+  constexpr std::int32_t kEnough = 9;
+  for (const std::int32_t reach : {2, 3}) {
+    points.clear();
+    for (std::int32_t down = -reach; down <= reach; ++down) {
+      for (std::int32_t right = -reach; right <= reach; ++right) {
+        const std::int16_t i = entry(row + down, column + right);
+        if (i >= 0 && (with_itself || down != 0 || right != 0)) {
+          static_cast<void>(points.try_push_back({{right, down}, found.elements[i].center_px}));
+        }
+      }
+    }
+    if (points.size() >= kEnough) {
+      break;
+    }
+  }
+  return points;
+}
+
+/// Leaves out what does not look as its neighbours let expect, a plug's dark inside, say; the worst
+/// would also move the others, so that it goes in rounds.
+void LatticeFinder::drop_strangers(FoundLattice& found) {
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    std::int32_t kept = 0;
+    const std::int32_t before = found.elements.size();
+    for (std::int32_t i = 0; i < before; ++i) {
+      const LatticeElement element = found.elements[i];
+      LocalMap map;
+      if (!is_faint(found, element) &&
+          (!map.fit(around(found, element.row, element.column, false)) ||
+           fits(map, element.ellipse, found.steps, kStranger))) {
+        found.elements[kept++] = element;
+      }
+    }
+    found.elements.truncate(kept);
+    fill_table(found);
+    if (kept == before) {
+      break;
+    }
+  }
+}
+
+/// Whether an element stands out far less than its neighbours: a smudge where one would be.
+bool LatticeFinder::is_faint(const FoundLattice& found, const LatticeElement& element) const {
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::int32_t i = 0; i < 9; ++i) {
+    const std::int16_t k = entry(element.row + i / 3 - 1, element.column + i % 3 - 1);
+    if (k >= 0 && i != 4 && found.elements[k].contrast >= 0.0) {
+      sum += found.elements[k].contrast;
+      count += 1.0;
+    }
+  }
+  return element.contrast >= 0.0 && element.contrast * count < kFaint * sum;
+}
+
+void LatticeFinder::measure_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
+  double grown = 0.0;
+  double measured = 0.0;
+  for (LatticeElement& element : found.elements) {
+    const double room = room_of(element.ellipse, found.steps);
+    if (half_axes(element.ellipse).y() < kLeastMeasured_px) {
+      static_cast<void>(weigh_spot(stretched, room, element.ellipse));
+      continue;
+    }
+    ElementEdge edge;
+    if (measure_element(stretched, element.ellipse, {kFineReach_px, room}, element_, edge) &&
+        edge.share >= kLeastShare && axes_by(element.ellipse, edge.ellipse).y() > kLeastOfSpot &&
+        axes_by(element.ellipse, edge.ellipse).x() < kMostOfSpot) {
+      grown += std::sqrt(std::sqrt(edge.ellipse.shape_px2.determinant() /
+                                   element.ellipse.shape_px2.determinant()));
+      measured += 1.0;
+      element.ellipse = edge.ellipse;
+      element.share = edge.share;
+      element.rms_px = edge.rms_px;
+    } else if (half_axes(element.ellipse).y() < kMostWeighed_px) {
+      static_cast<void>(weigh_spot(stretched, room, element.ellipse));
+    }
+  }
+  // The steps are in radii: those of the edges from here on, not of the thresholds' spots.
+  if (measured > 0.0) {
+    found.steps.column *= measured / grown;
+    found.steps.row *= measured / grown;
+  }
+}
+
+/// The images of the centres, by what the neighbours' say.
+void LatticeFinder::find_centers(FoundLattice& found) {
+  for (LatticeElement& element : found.elements) {
+    LocalMap map;
+    if (map.fit(around(found, element.row, element.column, true))) {
+      element.center_px = map.center_of(element.ellipse);
+    }
+  }
+}
+
+/// Looks for elements beside those that there are, as long as there are more.
+void LatticeFinder::complete(const picture::AveragedPicture& stretched, FoundLattice& found) {
+  constexpr std::array<std::array<std::int32_t, 2>, 8> kSides = {
+      {{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+  // The list grows while it is walked: what was found now is looked around from, too.
+  for (std::int32_t i = 0; i < found.elements.size(); ++i) {
+    for (const auto& side : kSides) {
+      const std::int32_t row = found.elements[i].row + side[0];
+      const std::int32_t column = found.elements[i].column + side[1];
+      if (in_table(row, column) && entry(row, column) == -1 && !found.elements.full() &&
+          !try_place(stretched, i, row, column, found)) {
+        entry(row, column) = -2;  // not again
+      }
+    }
+  }
+}
+
+/// Looks for an element where its neighbours, `from` among them, let expect it.
+bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::int32_t from,
+                              std::int32_t row, std::int32_t column, FoundLattice& found) {
+  LocalMap map;
+  if (!map.fit(around(found, row, column, false))) {
+    return false;
+  }
+  const Ellipse expected = map.element(found.steps);
+  const Eigen::Vector2d place = map.to_pixel(Eigen::Vector2d::Zero());
+  if (!(half_axes(expected).y() > kLeastLookedFor_px) || place.x() < 0.0 || place.y() < 0.0 ||
+      place.x() > stretched.width_px - 1.0 || place.y() > stretched.height_px - 1.0) {
+    return false;
+  }
+  LatticeElement element;
+  element.row = row;
+  element.column = column;
+  element.ellipse = expected;
+  if (!(half_axes(expected).y() < kLeastMeasured_px
+            ? look_for_spot(stretched, found.elements[from].ellipse, found.steps, least_contrast_,
+                            element)
+            : look_for_edge(stretched, found.steps, element_, element)) ||
+      !fits(map, element.ellipse, found.steps, kNewcomer)) {
+    return false;
+  }
+  element.center_px = map.center_of(element.ellipse);
+  entry(row, column) = static_cast<std::int16_t>(found.elements.size());
+  return found.elements.try_push_back(element);
+}
+
+/// The centroids of the elements' areas, by their pixels: what an edge fitted by an ellipse is bent
+/// by, and that the light across an element is uneven, does not enter.
+void LatticeFinder::weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
+  for (LatticeElement& element : found.elements) {
+    Ellipse spot = element.ellipse;
+    element.contrast = weigh_spot(stretched, room_of(spot, found.steps), spot);
+    element.centroid_px = spot.center_px;
+  }
+}
+
+void LatticeFinder::count_from_zero(FoundLattice& found) {
+  std::int32_t row = kMaxElements;
+  std::int32_t column = kMaxElements;
+  for (const LatticeElement& element : found.elements) {
+    row = std::min(row, element.row);
+    column = std::min(column, element.column);
+  }
+  for (LatticeElement& element : found.elements) {
+    element.row -= row;
+    element.column -= column;
+  }
+  std::sort(found.elements.begin(), found.elements.end(),
+            [](const LatticeElement& a, const LatticeElement& b) {
+              return a.row != b.row ? a.row < b.row : a.column < b.column;
+            });
+}
+
+}  // namespace tubesight::core::detection

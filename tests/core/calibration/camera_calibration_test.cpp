@@ -1,0 +1,321 @@
+// Calibrations of a known camera: from computed dots with noise, and what must be refused.
+
+#include "core/calibration/camera_calibration.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "core/calibration/tsai_start.h"
+#include "tests/support/heap_guard.h"
+
+namespace tubesight::core::calibration {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Eigen::Matrix3d turned(double about_x_deg, double about_y_deg, double about_z_deg) {
+  return (Eigen::AngleAxisd(about_x_deg * kDegree, Eigen::Vector3d::UnitX()) *
+          Eigen::AngleAxisd(about_y_deg * kDegree, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(about_z_deg * kDegree, Eigen::Vector3d::UnitZ()))
+      .toRotationMatrix();
+}
+
+class CameraCalibration : public ::testing::Test {
+ protected:
+  CameraCalibration() {
+    data_->sensor = {0.0084 * 768 / 635, 0.0098, 635.0, 480.0};
+    data_->dot_radius_mm = 2.0;
+    truth_ << 5.06, 1.021, 324.3, 233.8, 0.0092, 0.0;
+  }
+
+  /// Ten lines of ten dots, 8 mm apart, about the middle of the template.
+  void add_view(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& middle, bool staged = false,
+                double height_mm = 0.0) {
+    CalibrationView view;
+    view.first = data_->dots.size();
+    view.staged = staged;
+    view.height_mm = height_mm;
+    for (int i = 0; i < 100; ++i) {
+      SeenDot dot;
+      dot.place_mm << 8.0 * (i % 10), 8.0 * (i / 10), 0.0;
+      TargetPose pose;
+      pose.R_camera_target = rotation;
+      pose.t_camera_target = middle - rotation * Eigen::Vector3d(36.0, 36.0, 0.0);
+      dot.seen_px = centroid_of(data_->sensor, truth_, pose, dot.place_mm, data_->dot_radius_mm) +
+                    noise_px_ * Eigen::Vector2d(spread_(random_), spread_(random_));
+      ASSERT_TRUE(data_->dots.try_push_back(dot));
+    }
+    view.count = 100;
+    ASSERT_TRUE(data_->views.try_push_back(view));
+  }
+
+  /// Two heights of a stage whose axis is the template's normal, tipped by `tip`.
+  void add_stage(double tip = 0.0, double from_mm = 0.0, double to_mm = 30.0) {
+    const Eigen::Matrix3d rotation = turned(0.2, -0.2, 0.7);
+    const Eigen::Vector3d axis = (rotation.col(2) + Eigen::Vector3d(tip, 0.0, 0.0)).normalized();
+    const Eigen::Vector3d middle(0.5, -0.3, 82.0);
+    add_view(rotation, middle, true, from_mm);
+    add_view(rotation, middle + 30.0 * axis, true, to_mm);
+  }
+
+  void add_free_poses() {
+    add_view(turned(25.0, 0.0, 3.0), {0.0, 2.0, 95.0});
+    add_view(turned(-25.0, 5.0, 80.0), {3.0, 0.0, 100.0});
+    add_view(turned(0.0, 30.0, 40.0), {-2.0, 1.0, 105.0});
+    add_view(turned(5.0, -30.0, -20.0), {0.0, -3.0, 98.0});
+  }
+
+  CalibrationRefusal calibrate() {
+    outcome_ = calibrate_camera(*data_, *state_, *scratch_);
+    return outcome_.refusal;
+  }
+
+  /// Each parameter within 4.5 of the standard deviations told.
+  void expect_true() {
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = std::sqrt(outcome_.fit.camera_covariance(i, i));
+      EXPECT_LT(std::abs(state_->camera(i) - truth_(i)), 4.5 * sigma + 1e-9) << i;
+    }
+  }
+
+  CameraValues truth_;
+  double noise_px_ = 0.015;
+  std::mt19937 random_{7};
+  std::normal_distribution<double> spread_{0.0, 1.0};
+  std::unique_ptr<CalibrationData> data_ = std::make_unique<CalibrationData>();
+  std::unique_ptr<CalibrationState> state_ = std::make_unique<CalibrationState>();
+  std::unique_ptr<FitScratch> scratch_ = std::make_unique<FitScratch>();
+  CalibrationOutcome outcome_;
+};
+
+TEST_F(CameraCalibration, OfTwoStageHeightsIsTrue) {
+  add_stage();
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  expect_true();
+  EXPECT_NEAR(state_->camera(0), 5.06, 0.0015);
+  EXPECT_NEAR(outcome_.fit.sigma_px, 0.015, 0.003);
+  EXPECT_FALSE(outcome_.freed.stage_axis);
+  EXPECT_FALSE(outcome_.freed.distortion2);
+  EXPECT_LT(outcome_.map.rms_px, 0.15);
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+}
+
+TEST_F(CameraCalibration, WithoutNoiseFindsTheCameraToItsDigits) {
+  noise_px_ = 0.0;
+  add_stage();
+  add_free_poses();
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_LT((state_->camera - truth_).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_EQ(outcome_.left_out, 0);
+  EXPECT_EQ(outcome_.verdict, Verdict::kBase);
+}
+
+TEST_F(CameraCalibration, OfAStageThatStandsAskewFreesItsAxis) {
+  add_stage(0.01);
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_TRUE(outcome_.freed.stage_axis);
+  expect_true();
+}
+
+TEST_F(CameraCalibration, OfFreePosesIsTrue) {
+  add_free_poses();
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  expect_true();
+}
+
+TEST_F(CameraCalibration, FreesTheSecondDistortionWhereTheCameraHasIt) {
+  truth_(5) = 2e-4;
+  add_stage();
+  add_free_poses();
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_TRUE(outcome_.freed.distortion2);
+  expect_true();
+}
+
+TEST_F(CameraCalibration, LeavesOutADotThatIsNone) {
+  add_stage();
+  data_->dots[37].seen_px += Eigen::Vector2d(3.0, -2.0);
+  data_->dots[120].seen_px += Eigen::Vector2d(0.0, 1.0);
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_EQ(outcome_.left_out, 2);
+  EXPECT_FALSE(data_->dots[37].used);
+  EXPECT_FALSE(data_->dots[120].used);
+  expect_true();
+}
+
+TEST_F(CameraCalibration, TheCentroidsBiasIsThereAndIsTakenOut) {
+  noise_px_ = 0.0;
+  add_stage();
+  add_free_poses();
+  data_->dot_radius_mm = 0.0;  // as if centroids were the centres' images
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_GT(outcome_.fit.rms_px, 0.003);
+  EXPECT_GT((state_->camera - truth_).cwiseAbs().maxCoeff(), 0.005);
+}
+
+TEST_F(CameraCalibration, PromisesTheErrorThatItHas) {
+  // The mean of squared errors by the covariance, over sessions: 5 for 5 parameters.
+  double sum = 0.0;
+  constexpr int kSessions = 10;
+  for (int session = 0; session < kSessions; ++session) {
+    data_->dots.clear();
+    data_->views.clear();
+    add_stage();
+    ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+    const Eigen::Matrix<double, 5, 1> error = (state_->camera - truth_).head<5>();
+    math::Cholesky<5> factor;
+    ASSERT_TRUE(factor.factor(outcome_.fit.camera_covariance.topLeftCorner<5, 5>()));
+    sum += error.dot(factor.solve(error)) / 5.0;
+  }
+  EXPECT_GT(sum / kSessions, 0.45);
+  EXPECT_LT(sum / kSessions, 1.8);
+}
+
+TEST_F(CameraCalibration, OfOneViewIsRefused) {
+  add_view(turned(20.0, 0.0, 0.0), {0.0, 0.0, 95.0});
+  EXPECT_EQ(calibrate(), CalibrationRefusal::kOneView);
+}
+
+TEST_F(CameraCalibration, OfEqualHeightsIsRefused) {
+  add_stage(0.0, 5.0, 5.0);
+  EXPECT_EQ(calibrate(), CalibrationRefusal::kEqualHeights);
+}
+
+TEST_F(CameraCalibration, OfSwappedHeightsIsRefused) {
+  add_stage(0.0, 30.0, 0.0);
+  EXPECT_EQ(calibrate(), CalibrationRefusal::kNoStart);
+}
+
+TEST_F(CameraCalibration, OfParallelPlanesWithoutHeightsIsRefused) {
+  add_view(turned(0.2, -0.2, 0.7), {0.5, -0.3, 82.0});
+  add_view(turned(0.2, -0.2, 0.7), {0.5, -0.3, 112.0});
+  EXPECT_NE(calibrate(), CalibrationRefusal::kNone);
+}
+
+TEST_F(CameraCalibration, OfTwoLikePosesIsNoMoreThanForTracking) {
+  add_view(turned(25.0, 0.0, 3.0), {0.0, 2.0, 95.0});
+  add_view(turned(25.1, 0.0, 3.0), {0.1, 2.0, 95.0});
+  if (calibrate() == CalibrationRefusal::kNone) {
+    EXPECT_EQ(outcome_.verdict, Verdict::kTracking);
+  }
+}
+
+TEST_F(CameraCalibration, OfAMirroredTemplateIsRefused) {
+  add_stage();
+  for (SeenDot& dot : data_->dots) {
+    dot.place_mm.x() = -dot.place_mm.x();
+  }
+  EXPECT_EQ(calibrate(), CalibrationRefusal::kNoStart);
+}
+
+TEST_F(CameraCalibration, OfATemplatePrintedOutOfScaleIsRefused) {
+  add_stage();
+  for (SeenDot& dot : data_->dots) {
+    dot.place_mm.y() *= dot.place_mm.y() > 35.0 ? 1.02 : 1.0;
+  }
+  EXPECT_NE(calibrate(), CalibrationRefusal::kNone);
+}
+
+TEST_F(CameraCalibration, OfALooseLensIsRefused) {
+  const Eigen::Matrix3d rotation = turned(0.2, -0.2, 0.7);
+  add_view(rotation, {0.5, -0.3, 82.0}, true, 0.0);
+  truth_(2) += 8.0;  // the lens tipped between the heights
+  truth_(4) *= 1.3;
+  add_view(rotation, {0.5, -0.3, 112.0}, true, 30.0);
+  const CalibrationRefusal refusal = calibrate();
+  EXPECT_TRUE(refusal != CalibrationRefusal::kNone || outcome_.verdict == Verdict::kTracking);
+}
+
+TEST_F(CameraCalibration, AsksForNoMemory) {
+  add_stage();
+  std::int64_t allocations = 0;
+  {
+    const tests::HeapGuard guard;
+    static_cast<void>(calibrate());
+    allocations = guard.calls().allocations;
+  }
+  EXPECT_EQ(allocations, 0);
+}
+
+TEST_F(CameraCalibration, StartsNearTheCamera) {
+  truth_(4) = 0.002;
+  add_stage();
+  ASSERT_TRUE(start_from_views(*data_, *state_));
+  EXPECT_NEAR(state_->camera(0), 5.06, 0.4);
+  EXPECT_NEAR(state_->poses[1].t_camera_target.z() - state_->poses[0].t_camera_target.z(), 30.0,
+              3.0);
+}
+
+TEST(Imaging, MapsBackWhatItMapped) {
+  const Sensor sensor{0.0102, 0.0098, 635.0, 480.0};
+  CameraValues camera;
+  camera << 5.06, 1.021, 324.3, 233.8, 0.0092, -1e-4;
+  for (const Eigen::Vector3d& place :
+       {Eigen::Vector3d(0.0, 0.0, 80.0), Eigen::Vector3d(40.0, -30.0, 80.0),
+        Eigen::Vector3d(-45.0, 33.0, 90.0)}) {
+    const Eigen::Vector2d pixel = pixel_of(sensor, camera, place);
+    const Eigen::Vector2d ideal = ideal_of(sensor, camera, pixel);
+    EXPECT_NEAR(ideal.x(), 5.06 * place.x() / place.z(), 1e-10);
+    EXPECT_NEAR(ideal.y(), 5.06 * place.y() / place.z(), 1e-10);
+  }
+}
+
+TEST(Imaging, ACentroidIsThatOfTheDotsPixels) {
+  // The dot's image counted on a grid of a hundredth of a pixel, back through the lens to the
+  // plane.
+  const Sensor sensor{0.0102, 0.0098, 635.0, 480.0};
+  CameraValues camera;
+  camera << 5.06, 1.021, 324.3, 233.8, 0.0092, 0.0;
+  TargetPose pose;
+  pose.R_camera_target = turned(40.0, 15.0, 10.0);
+  pose.t_camera_target << 20.0, 18.0, 60.0;
+  const Eigen::Vector3d center(3.0, 2.0, 0.0);
+  constexpr double kRadius_mm = 4.0;
+  const Eigen::Vector2d middle =
+      pixel_of(sensor, camera, pose.R_camera_target * center + pose.t_camera_target);
+  const Eigen::Vector3d normal = pose.R_camera_target.col(2);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double count = 0.0;
+  for (int i = -2500; i <= 2500; i += 5) {
+    for (int k = -2500; k <= 2500; k += 5) {
+      const Eigen::Vector2d pixel = middle + 0.02 * Eigen::Vector2d(i, k);
+      const Eigen::Vector2d ideal = ideal_of(sensor, camera, pixel);
+      const Eigen::Vector3d ray(ideal.x(), ideal.y(), camera(0));
+      const Eigen::Vector3d place = ray * (normal.dot(pose.t_camera_target) / normal.dot(ray));
+      const Eigen::Vector3d on_target =
+          pose.R_camera_target.transpose() * (place - pose.t_camera_target);
+      if ((on_target - center).squaredNorm() <= kRadius_mm * kRadius_mm) {
+        sum += pixel;
+        count += 1.0;
+      }
+    }
+  }
+  ASSERT_GT(count, 10000.0);
+
+  const Eigen::Vector2d computed = centroid_of(sensor, camera, pose, center, kRadius_mm);
+
+  EXPECT_LT((computed - sum / count).norm(), 0.01);
+  EXPECT_GT((computed - middle).norm(), 0.1);  // the bias that is taken out
+}
+
+}  // namespace
+}  // namespace tubesight::core::calibration
