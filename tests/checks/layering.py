@@ -73,6 +73,7 @@ DRIVER_LIBRARY = {
     "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),
     "drivers/settings": re.compile(r"^toml\+\+/"),
     "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it
+    "drivers/v4l2": re.compile(r"^linux/videodev2\.h$"),
 }
 
 FORBIDDEN_BELOW_BOARD = [
