@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
-#include "board/visionbox/played_source.h"
 #include "board/visionbox/tracking_thread.h"
 
 namespace tubesight::board {

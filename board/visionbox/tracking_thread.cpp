@@ -5,15 +5,16 @@
 namespace tubesight::board {
 namespace {
 
-/// A field that is later than this is a missing one: between one and two fields, as a rule.
-constexpr double kPatienceInFields = 1.75;
+/// A field that is later than this is a missing one: between one and two of the times in which some
+/// come, as a rule.
+constexpr double kPatience = 1.75;
 /// A turn is the millisecond's business, whatever a source says of its rate.
 constexpr std::chrono::milliseconds kShortest{5};
 constexpr std::chrono::milliseconds kLongest{1000};
 
 }  // namespace
 
-TrackingThread::TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+TrackingThread::TrackingThread(Loop& loop, FieldSource& source, KeptLink* link,
                                const RealTimeSettings& settings)
     : loop_(&loop), source_(&source), link_(link), settings_(settings) {}
 
@@ -44,7 +45,8 @@ void TrackingThread::run() {
 }
 
 void TrackingThread::turn() {
-  const std::chrono::duration<double> patience = kPatienceInFields * source_->span();
+  const std::chrono::duration<double> patience =
+      kPatience * source_->fields_at_once() * source_->span();
   const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
                                   kShortest, kLongest);
   if (!loop_->turn(timeout)) {

@@ -7,10 +7,11 @@
 #include <thread>
 
 #include "board/box/box_loop.h"
+#include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/latency_histogram.h"
-#include "board/visionbox/played_source.h"
 #include "board/visionbox/real_time.h"
+#include "board/visionbox/wakeup.h"
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/base/snapshot.h"
@@ -40,8 +41,7 @@ class TrackingThread {
 
   /// All outlive the thread. The loop and the source are started by others. The robot reads over
   /// `link` how the box is doing; null: there is none.
-  TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
-                 const RealTimeSettings& settings);
+  TrackingThread(Loop& loop, FieldSource& source, KeptLink* link, const RealTimeSettings& settings);
   TrackingThread(const TrackingThread&) = delete;
   TrackingThread& operator=(const TrackingThread&) = delete;
   ~TrackingThread() { stop(); }
@@ -64,7 +64,7 @@ class TrackingThread {
   void tell_robot();
 
   Loop* loop_;
-  PlayedSource* source_;
+  FieldSource* source_;
   KeptLink* link_;
   RealTimeSettings settings_;
   std::thread thread_;

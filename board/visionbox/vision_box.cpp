@@ -1,8 +1,7 @@
 #include "board/visionbox/vision_box.h"
 
 #include "board/visionbox/link_identity.h"
-#include "board/visionbox/replay_player.h"
-#include "board/visionbox/simulated_player.h"
+#include "board/visionbox/played_world.h"
 
 namespace tubesight::board {
 namespace {
@@ -11,12 +10,10 @@ using core::Error;
 using core::Result;
 using core::Unexpected;
 
-std::unique_ptr<FieldPlayer> make_player(const BoxSettings& settings) {
-  if (settings.source.kind == SourceKind::kSimulated) {
-    return std::make_unique<SimulatedPlayer>(settings.scenario.scenario, settings.source.script);
-  }
-  return std::make_unique<ReplayPlayer>(settings.told(), settings.source.recording,
-                                        settings.source.script);
+std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::OperatorStation& station,
+                                         const VisionBox::Tell& tell) {
+  return std::make_unique<PlayedWorld>(settings, station, settings.link.kind == LinkKind::kNone,
+                                       tell);
 }
 
 /// Null: there is none.
@@ -34,29 +31,20 @@ std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Cloc
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
     : settings_(&settings),
       tell_(std::move(tell)),
-      player_(make_player(settings)),
-      source_(*player_, source_settings(), tell_),
+      world_(make_world(settings, socket_station_, tell_)),
+      source_(world_->source()),
       kept_link_(make_link(settings, source_.clock(), tell_)),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
       tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
 
-PlayedSourceSettings VisionBox::source_settings() const {
-  const core::CameraSettings& camera = settings_->told().camera;
-  PlayedSourceSettings source;
-  source.loop = settings_->source.loop;
-  source.width_px = camera.width_px;
-  source.height_px = camera.height_px;
-  return source;
-}
-
 /// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
   hal::RobotLink* link = kept_link_.get();
   if (link == nullptr) {
-    link = &scripted_link_;
+    link = world_->scripted_robot();
   }
-  return {&source_, &source_.clock(), player_->has_lamp() ? &dimmer_ : nullptr, link, &station_};
+  return {&source_, &source_.clock(), world_->dimmer(), link, &world_->station()};
 }
 
 Result<void> VisionBox::start_without_tracking() {

@@ -9,12 +9,10 @@
 #include "board/box/pose_service.h"
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
-#include "board/visionbox/field_player.h"
 #include "board/visionbox/kept_link.h"
-#include "board/visionbox/played_source.h"
 #include "board/visionbox/pose_worker.h"
-#include "board/visionbox/script_ports.h"
 #include "board/visionbox/tracking_thread.h"
+#include "board/visionbox/watched_world.h"
 #include "core/base/result.h"
 #include "core/session/session.h"
 #include "drivers/control/socket_station.h"
@@ -58,7 +56,6 @@ class VisionBox {
   [[nodiscard]] const TrackingThread::Loop& loop() const { return loop_; }
 
  private:
-  [[nodiscard]] PlayedSourceSettings source_settings() const;
   [[nodiscard]] BoxPorts ports();
 
   const BoxSettings* settings_;
@@ -67,14 +64,10 @@ class VisionBox {
   bool memory_locked_ = false;
   MonotonicTime started_at_{0};
 
-  std::unique_ptr<FieldPlayer> player_;
-  PlayedSource source_;
-  PlayedDimmer dimmer_{source_};
-
   drivers::SocketStation socket_station_;
-  ScriptedLink scripted_link_{source_};
+  std::unique_ptr<WatchedWorld> world_;
+  FieldSource& source_;
   std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
-  ScriptedStation station_{source_, socket_station_, kept_link_ == nullptr};
 
   core::session::Session<core::FixedPoint> session_;
   PoseService poses_;

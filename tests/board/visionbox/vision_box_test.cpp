@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/script_ports.h"
 #include "drivers/files/result_csv.h"
 #include "tests/support/events.h"
 
