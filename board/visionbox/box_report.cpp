@@ -50,6 +50,15 @@ void add_source(JsonLine& line, const BoxReport& report) {
   line.add_printed("fields_per_s", rate_text(report.fields_per_s));
   line.add("passes", report.passes).add("failures", report.failures);
   line.add("errors", report.tracking.source_errors).close();
+  if (!report.camera) {
+    return;
+  }
+  line.open("camera").add("well", report.camera->well).add("words", report.camera->words);
+  line.add("counts", report.camera->counts).add("stamps", report.camera->stamps);
+  for (const auto& [name, count] : report.camera->counters) {
+    line.add(name, count);
+  }
+  line.close();
 }
 
 void add_sighting(JsonLine& line, const core::Sighting& sighting) {
@@ -156,6 +165,7 @@ std::string status_text(const BoxReport& report) {
   if (report.failures > 0) {
     text += ", failed " + std::to_string(report.failures) + " times";
   }
+  text += report.camera ? "\ncamera    " + report.camera->words : "";
   text += "\ntracking  " + sighting_text(tracking.sighting);
   text += "\nfields    " + std::to_string(tracking.counters.fields) + ", of which " +
           std::to_string(tracking.counters.missing) + " did not come; " +
@@ -201,6 +211,9 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
   std::vector<SelfTestRow> rows;
   rows.push_back({"source", good_if(report.source == SourceState::kPlaying),
                   std::string(report.source_kind) + ", " + std::string(name_of(report.source))});
+  if (report.camera) {
+    rows.push_back({"camera", good_if(report.camera->well), report.camera->words});
+  }
   const double nominal =
       report.span.count() > 0 ? 1.0 / std::chrono::duration<double>(report.span).count() : 0.0;
   rows.push_back(

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/tracking_thread.h"
@@ -23,6 +25,7 @@ struct BoxReport {
   core::FieldTime span{0};  ///< from one field to the next, as the source says
   std::int64_t passes = 0;
   std::int64_t failures = 0;
+  std::optional<CameraStatus> camera;  ///< empty: the source is none
 
   std::string_view link_kind;
   LinkReport link;

@@ -22,6 +22,7 @@ class PlayedWorld final : public WatchedWorld {
   [[nodiscard]] hal::Dimmer* dimmer() override { return player_->has_lamp() ? &dimmer_ : nullptr; }
   [[nodiscard]] hal::RobotLink* scripted_robot() override { return &robot_; }
   [[nodiscard]] hal::OperatorStation& station() override { return station_; }
+  [[nodiscard]] std::optional<CameraStatus> camera() const override { return {}; }
 
  private:
   std::unique_ptr<FieldPlayer> player_;

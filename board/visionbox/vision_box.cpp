@@ -1,5 +1,6 @@
 #include "board/visionbox/vision_box.h"
 
+#include "board/visionbox/camera_world.h"
 #include "board/visionbox/link_identity.h"
 #include "board/visionbox/played_world.h"
 
@@ -12,6 +13,9 @@ using core::Unexpected;
 
 std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::OperatorStation& station,
                                          const VisionBox::Tell& tell) {
+  if (settings.source.kind == SourceKind::kV4l2) {
+    return std::make_unique<CameraWorld>(settings, station, tell);
+  }
   return std::make_unique<PlayedWorld>(settings, station, settings.link.kind == LinkKind::kNone,
                                        tell);
 }
@@ -103,7 +107,8 @@ BoxReport VisionBox::report() const {
   BoxReport report;
   report.turned = tracking_.status(report.tracking);
   report.up = monotonic_now() - started_at_;
-  report.source_kind = settings_->source.kind == SourceKind::kSimulated ? "simulated" : "replay";
+  report.source_kind = name_of(settings_->source.kind);
+  report.camera = world_->camera();
   report.source = source_.state();
   report.span = source_.span();
   report.passes = source_.passes();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+
+#include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
 #include "hal/dimmer.h"
 #include "hal/operator_station.h"
@@ -21,6 +24,8 @@ class WatchedWorld {
   [[nodiscard]] virtual hal::RobotLink* scripted_robot() = 0;
   /// The operator, beside that of a script where there is one.
   [[nodiscard]] virtual hal::OperatorStation& station() = 0;
+  /// How the camera is doing; empty: there is none. Any thread.
+  [[nodiscard]] virtual std::optional<CameraStatus> camera() const = 0;
 };
 
 }  // namespace tubesight::board
