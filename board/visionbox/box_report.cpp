@@ -175,6 +175,7 @@ std::string status_text(const BoxReport& report) {
           std::to_string(tracking.late) + " later than the deadline";
   text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
                                           : std::string("nobody dims it"));
+  text += report.lamp && !report.lamp->open ? ", its device cannot be had" : "";
   text += "\nlink      " + link_text(report);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
@@ -195,7 +196,12 @@ std::string status_answer(const BoxReport& report) {
     add_latency(line, "step", tracking.step);
     add_latency(line, "grab_to_sighting", tracking.grab_to_sighting);
     line.add("late", tracking.late);
-    line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille).close();
+    line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille);
+    if (report.lamp) {
+      line.add("open", report.lamp->open).add("resting", report.lamp->resting);
+      line.add("failures", report.lamp->failures);
+    }
+    line.close();
   }
   add_link(line, report);
   line.open("realtime").add("scheduled", report.tracking.scheduled);
@@ -226,7 +232,9 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                   latency_text(tracking.grab_to_sighting) + ", " + std::to_string(tracking.late) +
                       " fields later than " + rate_text(report.deadline_ms) + " ms"});
   rows.push_back({"lamp",
-                  tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0) : Verdict::kAbsent,
+                  tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0 &&
+                                          (!report.lamp || report.lamp->open))
+                                : Verdict::kAbsent,
                   tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille, " +
                                       std::to_string(tracking.counters.dimmer_errors) + " errors"
                                 : "nobody dims it"});

@@ -9,6 +9,7 @@
 #include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/tracking_thread.h"
 
 namespace tubesight::board {
@@ -26,6 +27,7 @@ struct BoxReport {
   std::int64_t passes = 0;
   std::int64_t failures = 0;
   std::optional<CameraStatus> camera;  ///< empty: the source is none
+  std::optional<LampReport> lamp;      ///< empty: nobody dims it, or a played one
 
   std::string_view link_kind;
   LinkReport link;

@@ -22,7 +22,8 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 4> kBoxTables = {"source", "control", "realtime", "link"};
+constexpr std::array<std::string_view, 5> kBoxTables = {"source", "control", "realtime", "link",
+                                                        "lamp"};
 constexpr std::array<std::string_view, 3> kSourceKinds = {"replay", "simulated", "v4l2"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -128,6 +129,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.control_socket.clear();
   box.real_time = {};
   box.link = {};
+  box.lamp = {};
   drivers::read_table(document, "source", true,
                       [&](TableReader& table) { read_source(document, table, box.source); });
   drivers::read_table(document, "control", false, [&](TableReader& table) {
@@ -137,6 +139,9 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_real_time(table, box.real_time); });
   drivers::read_table(document, "link", false,
                       [&](TableReader& table) { read_link(table, box.link); });
+  drivers::read_table(document, "lamp", false, [&](TableReader& table) {
+    read_lamp(table, box.source.kind == SourceKind::kV4l2, box.lamp);
+  });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
 #include "board/visionbox/real_time.h"
 #include "core/base/result.h"
@@ -38,6 +39,7 @@ struct BoxSettings {
   std::string control_socket;  ///< empty: nobody can ask
   RealTimeSettings real_time;
   LinkSettings link;
+  LampSettings lamp;
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it
 

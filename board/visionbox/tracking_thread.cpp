@@ -14,9 +14,9 @@ constexpr std::chrono::milliseconds kLongest{1000};
 
 }  // namespace
 
-TrackingThread::TrackingThread(Loop& loop, FieldSource& source, KeptLink* link,
+TrackingThread::TrackingThread(Loop& loop, FieldSource& source, const Told& told,
                                const RealTimeSettings& settings)
-    : loop_(&loop), source_(&source), link_(link), settings_(settings) {}
+    : loop_(&loop), source_(&source), told_(told), settings_(settings) {}
 
 std::string TrackingThread::start() {
   stopping_ = false;
@@ -85,7 +85,7 @@ void TrackingThread::publish() {
 }
 
 void TrackingThread::tell_robot() {
-  if (link_ == nullptr) {
+  if (told_.link == nullptr) {
     return;
   }
   using drivers::Health;
@@ -96,7 +96,8 @@ void TrackingThread::tell_robot() {
                                                     : Health::kFailed;
   health.lamp_dimmed = now_.lamp;
   if (now_.lamp) {
-    const bool failed = now_.counters.dimmer_errors > dimmer_errors_;
+    const bool failed = now_.counters.dimmer_errors > dimmer_errors_ ||
+                        (told_.lamp != nullptr && !told_.lamp->report().open);
     health.lamp = failed ? Health::kFailed : Health::kWell;
     health.lamp_permille = now_.lamp_permille;
   }
@@ -104,7 +105,7 @@ void TrackingThread::tell_robot() {
   health.fields = now_.counters.fields;
   health.fields_missing = now_.counters.missing;
   health.fields_late = now_.late;
-  link_->set_health(health);
+  told_.link->set_health(health);
 }
 
 }  // namespace tubesight::board

@@ -9,6 +9,7 @@
 #include "board/box/box_loop.h"
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/latency_histogram.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/wakeup.h"
@@ -39,9 +40,16 @@ class TrackingThread {
  public:
   using Loop = BoxLoop<core::FixedPoint>;
 
+  /// Whom the robot's view of the box comes from and goes to; null: there is none.
+  struct Told {
+    KeptLink* link = nullptr;
+    const LampKeeper* lamp = nullptr;
+  };
+
   /// All outlive the thread. The loop and the source are started by others. The robot reads over
-  /// `link` how the box is doing; null: there is none.
-  TrackingThread(Loop& loop, FieldSource& source, KeptLink* link, const RealTimeSettings& settings);
+  /// the link how the box is doing.
+  TrackingThread(Loop& loop, FieldSource& source, const Told& told,
+                 const RealTimeSettings& settings);
   TrackingThread(const TrackingThread&) = delete;
   TrackingThread& operator=(const TrackingThread&) = delete;
   ~TrackingThread() { stop(); }
@@ -65,7 +73,7 @@ class TrackingThread {
 
   Loop* loop_;
   FieldSource* source_;
-  KeptLink* link_;
+  Told told_;
   RealTimeSettings settings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};

@@ -40,7 +40,7 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       kept_link_(make_link(settings, source_.clock(), tell_)),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
-      tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
+      tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
 
 /// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
@@ -48,7 +48,7 @@ BoxPorts VisionBox::ports() {
   if (link == nullptr) {
     link = world_->scripted_robot();
   }
-  return {&source_, &source_.clock(), world_->dimmer(), link, &world_->station()};
+  return {&source_, &source_.clock(), world_->dimmer(), link, &world_->station(), world_->lamp()};
 }
 
 Result<void> VisionBox::start_without_tracking() {
@@ -109,6 +109,9 @@ BoxReport VisionBox::report() const {
   report.up = monotonic_now() - started_at_;
   report.source_kind = name_of(settings_->source.kind);
   report.camera = world_->camera();
+  if (world_->lamp() != nullptr) {
+    report.lamp = world_->lamp()->report();
+  }
   report.source = source_.state();
   report.span = source_.span();
   report.passes = source_.passes();

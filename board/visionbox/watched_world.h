@@ -4,6 +4,7 @@
 
 #include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
+#include "board/visionbox/lamp_keeper.h"
 #include "hal/dimmer.h"
 #include "hal/operator_station.h"
 #include "hal/robot_link.h"
@@ -26,6 +27,8 @@ class WatchedWorld {
   [[nodiscard]] virtual hal::OperatorStation& station() = 0;
   /// How the camera is doing; empty: there is none. Any thread.
   [[nodiscard]] virtual std::optional<CameraStatus> camera() const = 0;
+  /// Who keeps the lamp; null: its level is in force at once.
+  [[nodiscard]] virtual const LampKeeper* lamp() const = 0;
 };
 
 }  // namespace tubesight::board

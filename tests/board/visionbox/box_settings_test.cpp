@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -162,6 +163,64 @@ TEST_F(BoxSettingsTest, APlayedSourceHasNoKeysOfACamera) {
   EXPECT_FALSE(load(std::string(kSource) + "device = \"serial:12\"\n"));
 
   EXPECT_TRUE(told("source.device: of another kind of source, expected it left out"));
+}
+
+TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
+  ASSERT_TRUE(load(std::string(kCamera) +
+                   "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\n"
+                   "channel = 1\nfrequency_hz = 20000\ninverted = true\nsoft_ms = 0\n"
+                   "full_for_s = 60\nrest_permille = 700\n"))
+      << messages_.front();
+
+  EXPECT_EQ(box_->lamp.kind, LampKind::kPwm);
+  EXPECT_EQ(box_->lamp.pwm.chip, "fe20c000.pwm");
+  EXPECT_EQ(box_->lamp.pwm.channel, 1);
+  EXPECT_EQ(box_->lamp.pwm.frequency_hz, 20'000);
+  EXPECT_TRUE(box_->lamp.pwm.inverted);
+  EXPECT_EQ(box_->lamp.care.soft, std::chrono::milliseconds(0));
+  EXPECT_EQ(box_->lamp.care.full_for, std::chrono::seconds(60));
+  EXPECT_EQ(box_->lamp.care.rest_permille, 700);
+}
+
+TEST_F(BoxSettingsTest, ALampOnGpioIsRead) {
+  ASSERT_TRUE(load(std::string(kCamera) +
+                   "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
+                   "lines = [\"18\"]\nactive_low = true\nfrequency_hz = 2000\npriority = 0\n"))
+      << messages_.front();
+  EXPECT_EQ(box_->lamp.kind, LampKind::kGpio);
+  EXPECT_EQ(box_->lamp.gpio.bank.chip, "pinctrl");
+  EXPECT_EQ(box_->lamp.gpio.bank.lines, (std::vector<std::string>{"18"}));
+  EXPECT_TRUE(box_->lamp.gpio.bank.active_low);
+  EXPECT_EQ(box_->lamp.gpio.frequency_hz, 2000);
+  EXPECT_EQ(box_->lamp.gpio.priority, 0);
+  EXPECT_EQ(box_->lamp.care.soft, std::chrono::milliseconds(500));
+
+  EXPECT_TRUE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
+                                          "lines = [\"LAMP1\", \"LAMP2\"]\n"));
+}
+
+TEST_F(BoxSettingsTest, MistakesOfALampAreTold) {
+  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"pwm\"\nlines = [\"1\"]\n"
+                                           "rest_permille = 5\nfrequency_hz = 1\n"));
+  EXPECT_TRUE(told("lamp.chip: "));
+  EXPECT_TRUE(told("lamp.channel: "));
+  EXPECT_TRUE(told("box.toml:7: lamp.lines: of another kind of lamp, expected it left out"));
+  EXPECT_TRUE(told("box.toml:8: lamp.rest_permille: of a time at full power, which needs "));
+  EXPECT_TRUE(told("box.toml:9: lamp.frequency_hz: 1"));
+  EXPECT_EQ(messages_.size(), 5U);
+
+  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"));
+  EXPECT_TRUE(told("lamp.lines: missing, expected 1 to 8 lines"));
+
+  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
+                                           "lines = [\"1\", \"2\"]\npriority = 5\n"));
+  EXPECT_TRUE(told("lamp.priority: of pulses, which a single line has, expected it left out"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
+                                           "lines = [\"1\"]\n"));
+  EXPECT_TRUE(
+      told("lamp.kind: gpio, expected \"none\": a source that is played has its own light"));
+  EXPECT_EQ(messages_.size(), 1U);
 }
 
 TEST_F(BoxSettingsTest, ALinkHasModbussOwnDefaults) {
