@@ -13,8 +13,8 @@ struct PixelFormat {
   std::string_view name;           ///< as settings say it: "GREY"
   std::uint32_t code = 0;          ///< V4L2_PIX_FMT_...
   std::int32_t bytes_a_pixel = 1;  ///< from one grey value to the next
-  std::int32_t first_byte = 0;     ///< of the first grey value
-  std::int32_t shift = 0;          ///< right, of 16 bits with the low byte first; 0: 8 bits
+  std::int32_t first_byte = 0;     ///< of the first grey value; of Y16 its upper 8 bits
+  bool ten_bits = false;           ///< of 16, the low byte first; else a byte each
 
   /// Whether lines can be lent as they are.
   [[nodiscard]] constexpr bool lendable() const { return bytes_a_pixel == 1; }
