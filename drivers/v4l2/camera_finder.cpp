@@ -142,8 +142,9 @@ std::string CameraInfo::name() const {
 }
 
 std::string serial_of(Kernel& kernel, const std::string& node) {
-  // From the interface up to the device, on USB; others have it at once or nowhere.
-  constexpr int kLevels = 3;
+  // From the interface up to the device, on USB; others have it at once or nowhere. One level
+  // further up there is a hub, which has a number of its own.
+  constexpr int kLevels = 2;
   std::string device = kernel.real_path(std::string(kClass) + "/" + file_name(node) + "/device");
   for (int level = 0; level < kLevels && !device.empty(); ++level) {
     const std::string serial = kernel.first_line(device + "/serial");

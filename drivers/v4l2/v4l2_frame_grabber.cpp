@@ -22,6 +22,8 @@ using v4l2::BufferKind;
 /// Without any buffer for so long the stream is begun anew: some grabbers start in vain at every
 /// tenth time, and deliver at the next.
 constexpr FieldTime kSilence = std::chrono::seconds(1);
+/// The same before the first one: a camera may have to settle.
+constexpr FieldTime kFirstSilence = std::chrono::seconds(5);
 /// The same of a slow camera, in fields.
 constexpr std::int32_t kSilentFields = 20;
 /// Refusals in a row after which the stream is given up; one alone passes.
@@ -66,6 +68,7 @@ Result<void> V4l2FrameGrabber::start() {
   fields_left_ = 0;
   failed_ = false;
   last_buffer_ = now;
+  settled_ = false;
   idle_in_a_row_ = 0;
   errors_in_a_row_ = 0;
   refused_in_a_row_ = 0;
@@ -166,7 +169,8 @@ Result<void> V4l2FrameGrabber::wait(FieldTime until) {
 }
 
 Result<void> V4l2FrameGrabber::nothing_came() {
-  const FieldTime longest = std::max<FieldTime>(kSilence, kSilentFields * device_.agreed().span);
+  const FieldTime longest = std::max<FieldTime>(settled_ ? kSilence : kFirstSilence,
+                                                kSilentFields * device_.agreed().span);
   if (clock_->now() - last_buffer_ < longest) {
     return Unexpected(Error::kTimeout);
   }
@@ -200,6 +204,7 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
     last_buffer_ = clock_->now();
+    settled_ = true;
     held_ = buffer.index;
     fields_left_ = fields_a_buffer();
     next_ = judge_.first_field(buffer, last_buffer_, no_signal_);

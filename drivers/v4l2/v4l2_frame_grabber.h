@@ -93,7 +93,8 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   std::uint32_t held_ = 0;          ///< the buffer in our hands
   std::int32_t fields_left_ = 0;    ///< of it, not lent yet
   core::Field next_;                ///< the first of those, but for its pixels
-  core::FieldTime last_buffer_{0};  ///< when it arrived
+  core::FieldTime last_buffer_{0};  ///< when it arrived; before the first one the start
+  bool settled_ = false;            ///< there was one since the start
   std::int32_t idle_in_a_row_ = 0;
   std::int32_t errors_in_a_row_ = 0;
   std::int32_t refused_in_a_row_ = 0;

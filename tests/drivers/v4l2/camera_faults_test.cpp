@@ -244,6 +244,7 @@ TEST_F(CameraFaults, ADeviceThatGoesInTheMiddleOfACallIsGone) {
 }
 
 TEST_F(CameraFaults, SilenceEndsTheStreamAfterASecond) {
+  ASSERT_TRUE(bench_.good_within(1));
   bench_.camera().every = {};
   const core::FieldTime begin = bench_.kernel().now();
   for (int i = 0; i < 9; ++i) {
@@ -258,6 +259,26 @@ TEST_F(CameraFaults, SilenceEndsTheStreamAfterASecond) {
   EXPECT_EQ(bench_.counters().silences, 1);
   bench_.camera().every = milliseconds(33);
   expect_recovery();
+}
+
+TEST_F(CameraFaults, BeforeItsFirstPictureACameraMaySettleForSomeSeconds) {
+  bench_.grabber().stop();
+  bench_.camera().every = milliseconds(4000);
+  ASSERT_TRUE(bench_.grabber().start());
+  for (int i = 0; i < 3; ++i) {
+    const auto lease = bench_.grab(1000);
+    ASSERT_FALSE(lease);
+    EXPECT_EQ(lease.error(), Error::kTimeout) << i;
+  }
+  EXPECT_TRUE(bench_.grab(1500));
+
+  bench_.camera().every = {};
+  ASSERT_TRUE(bench_.start_anew());
+  for (int i = 0; i < 4; ++i) {
+    ASSERT_EQ(bench_.grab(1000).error(), Error::kTimeout) << i;
+  }
+  expect_error(Error::kIo);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kSilent);
 }
 
 TEST_F(CameraFaults, AChangeOfTheSourceIsANewBeginning) {

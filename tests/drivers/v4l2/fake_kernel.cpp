@@ -327,7 +327,10 @@ std::string FakeKernel::real_path(const std::string& path) {
 }
 
 std::string FakeKernel::first_line(const std::string& path) {
-  // As on USB: the serial number stands one level above the interface.
+  // As on USB: the serial number stands one level above the interface, and that of a hub above.
+  if (path == "/sys/devices/serial") {
+    return "of the hub";
+  }
   const std::string begin = "/sys/devices/video";
   if (!path.starts_with(begin) || !path.ends_with("/serial") ||
       path.find("/device/") != std::string::npos) {
