@@ -1,5 +1,6 @@
 #include "board/visionbox/lamp_keeper.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace tubesight::board {
@@ -55,6 +56,12 @@ Result<void> LampKeeper::set_level(std::int32_t permille) {
   return refused ? Result<void>(Unexpected(Error::kIo)) : Result<void>();
 }
 
+void LampKeeper::set_most(std::int32_t permille) {
+  if (most_permille_.exchange(permille) != permille) {
+    stirred_.wake();
+  }
+}
+
 std::int32_t LampKeeper::level_permille() const {
   return !started_ || failed_ ? 0 : wanted_permille_.load();
 }
@@ -106,8 +113,9 @@ void LampKeeper::keep() {
   MonotonicTime longest_end{0};
   while (true) {
     const MonotonicTime now = monotonic_now();
+    const std::int32_t wanted = std::min(wanted_permille_.load(), most_permille_.load());
     if (opened()) {
-      const std::int32_t level = ramp_.next(wanted_permille_, now);
+      const std::int32_t level = ramp_.next(wanted, now);
       resting_ = ramp_.resting();
       if (level != shining_permille_) {
         apply(level, now);
@@ -120,7 +128,7 @@ void LampKeeper::keep() {
         break;
       }
     }
-    const bool led = open_ && shining_permille_ != wanted_permille_ && !resting_;
+    const bool led = open_ && shining_permille_ != wanted && !resting_;
     stirred_.wait_until(now + (led || stopping_ ? kStep : kIdle));
   }
   if (open_) {

@@ -57,6 +57,9 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   /// The level wanted; 0 while the lamp cannot be had.
   [[nodiscard]] std::int32_t level_permille() const override;
 
+  /// No more than this shines from now on, whatever is wanted. Any thread.
+  void set_most(std::int32_t permille);
+
   [[nodiscard]] std::int32_t level_permille_at(core::FieldTime instant) const override;
 
   /// Any thread.
@@ -95,6 +98,7 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   std::atomic<bool> failed_{false};  ///< it was tried, and cannot be had
   std::atomic<bool> resting_{false};
   std::atomic<std::int32_t> wanted_permille_{0};
+  std::atomic<std::int32_t> most_permille_{hal::kFullLevel_permille};
   std::atomic<bool> asked_{false};  ///< a level was wanted since the start
   std::atomic<std::int32_t> shining_permille_{0};
   std::atomic<std::int64_t> failures_{0};

@@ -15,8 +15,9 @@ using drivers::TableReader;
 constexpr std::array<std::string_view, 3> kKinds = {"none", "pwm", "gpio"};
 constexpr std::array<std::string_view, 2> kPwmKeys = {"channel", "inverted"};
 constexpr std::array<std::string_view, 3> kGpioKeys = {"lines", "active_low", "priority"};
-constexpr std::array<std::string_view, 5> kSharedKeys = {"chip", "frequency_hz", "soft_ms",
-                                                         "full_for_s", "rest_permille"};
+constexpr std::array<std::string_view, 7> kSharedKeys = {
+    "chip",          "frequency_hz",   "soft_ms",        "full_for_s",
+    "rest_permille", "silent_after_s", "silent_permille"};
 
 constexpr drivers::WholeRange kChannel{0, 255};
 constexpr drivers::WholeRange kPwmFrequency{100, 100'000};
@@ -26,6 +27,7 @@ constexpr drivers::WholeRange kPriority{0, 99};
 constexpr drivers::WholeRange kSoft{0, 10'000};
 constexpr drivers::WholeRange kFullFor{0, 3'600};
 constexpr drivers::WholeRange kRest{0, 1'000};
+constexpr drivers::WholeRange kSilentAfter{0, 86'400};
 
 void read_care(TableReader& table, LampCare& care) {
   auto soft_ms = static_cast<std::int32_t>(care.soft.count());
@@ -41,6 +43,20 @@ void read_care(TableReader& table, LampCare& care) {
                 "of a time at full power, which needs full_for_s");
   } else {
     table.ignore("rest_permille");
+  }
+}
+
+void read_silent_link(TableReader& table, SilentLinkSettings& silent) {
+  std::int32_t after_s = 0;
+  table.optional_whole("silent_after_s", kSilentAfter, after_s);
+  silent.after = std::chrono::seconds(after_s);
+  if (after_s > 0) {
+    table.whole("silent_permille", kRest, silent.most_permille);
+  } else if (table.sound("silent_after_s")) {
+    refuse_keys(table, std::array<std::string_view, 1>{"silent_permille"},
+                "of a silent link, which needs silent_after_s");
+  } else {
+    table.ignore("silent_permille");
   }
 }
 
@@ -101,6 +117,7 @@ void read_lamp(TableReader& table, bool camera, LampSettings& lamp) {
     read_gpio(table, lamp.gpio);
   }
   read_care(table, lamp.care);
+  read_silent_link(table, lamp.silent_link);
 }
 
 }  // namespace tubesight::board

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "board/visionbox/lamp_ramp.h"
+#include "board/visionbox/silent_link.h"
 #include "drivers/gpio/gpio_dimmer.h"
 #include "drivers/pwm/pwm_dimmer.h"
 #include "drivers/settings/table_reader.h"
@@ -18,6 +19,7 @@ struct LampSettings {
   drivers::PwmSettings pwm;
   drivers::GpioSettings gpio;
   LampCare care;
+  SilentLinkSettings silent_link;
 };
 
 /// Reads the table; mistakes go to the reader's problems. `camera`: the source is one; anything

@@ -23,6 +23,7 @@ class PlayedWorld final : public WatchedWorld {
   [[nodiscard]] hal::RobotLink* scripted_robot() override { return &robot_; }
   [[nodiscard]] hal::OperatorStation& station() override { return station_; }
   [[nodiscard]] std::optional<CameraStatus> camera() const override { return {}; }
+  [[nodiscard]] LampKeeper* lamp() override { return nullptr; }
   [[nodiscard]] const LampKeeper* lamp() const override { return nullptr; }
 
  private:

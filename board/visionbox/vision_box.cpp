@@ -38,6 +38,7 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       world_(make_world(settings, socket_station_, tell_)),
       source_(world_->source()),
       kept_link_(make_link(settings, source_.clock(), tell_)),
+      silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false}),
       tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
@@ -100,6 +101,14 @@ void VisionBox::stop() {
 void VisionBox::look_after() {
   if (kept_link_ != nullptr) {
     kept_link_->look_after(monotonic_now());
+  }
+  if (kept_link_ != nullptr && world_->lamp() != nullptr) {
+    TrackingStatus status;
+    const bool known = tracking_.status(status);
+    const bool tracking = known && (status.sighting.state == core::TrackState::kTracking ||
+                                    status.sighting.state == core::TrackState::kDegraded);
+    world_->lamp()->set_most(silent_link_.most_permille(kept_link_->report().counters.requests,
+                                                        tracking, monotonic_now()));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/pose_worker.h"
+#include "board/visionbox/silent_link.h"
 #include "board/visionbox/tracking_thread.h"
 #include "board/visionbox/watched_world.h"
 #include "core/base/result.h"
@@ -45,8 +46,9 @@ class VisionBox {
   /// Stops everything; the lamp goes dark.
   void stop();
 
-  /// Does what is left to do beside the tracking: opens a link that could not be opened. To be
-  /// called now and then, on the thread that started the box.
+  /// Does what is left to do beside the tracking: opens a link that could not be opened, and lets
+  /// the lamp rest when the robot is silent. To be called now and then, on the thread that started
+  /// the box.
   void look_after();
 
   [[nodiscard]] BoxReport report() const;
@@ -68,6 +70,7 @@ class VisionBox {
   std::unique_ptr<WatchedWorld> world_;
   FieldSource& source_;
   std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
+  SilentLink silent_link_;
 
   core::session::Session<core::FixedPoint> session_;
   PoseService poses_;

@@ -28,6 +28,7 @@ class WatchedWorld {
   /// How the camera is doing; empty: there is none. Any thread.
   [[nodiscard]] virtual std::optional<CameraStatus> camera() const = 0;
   /// Who keeps the lamp; null: its level is in force at once.
+  [[nodiscard]] virtual LampKeeper* lamp() = 0;
   [[nodiscard]] virtual const LampKeeper* lamp() const = 0;
 };
 

@@ -169,7 +169,8 @@ TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
   ASSERT_TRUE(load(std::string(kCamera) +
                    "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\n"
                    "channel = 1\nfrequency_hz = 20000\ninverted = true\nsoft_ms = 0\n"
-                   "full_for_s = 60\nrest_permille = 700\n"))
+                   "full_for_s = 60\nrest_permille = 700\nsilent_after_s = 300\n"
+                   "silent_permille = 100\n"))
       << messages_.front();
 
   EXPECT_EQ(box_->lamp.kind, LampKind::kPwm);
@@ -180,6 +181,8 @@ TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
   EXPECT_EQ(box_->lamp.care.soft, std::chrono::milliseconds(0));
   EXPECT_EQ(box_->lamp.care.full_for, std::chrono::seconds(60));
   EXPECT_EQ(box_->lamp.care.rest_permille, 700);
+  EXPECT_EQ(box_->lamp.silent_link.after, std::chrono::seconds(300));
+  EXPECT_EQ(box_->lamp.silent_link.most_permille, 100);
 }
 
 TEST_F(BoxSettingsTest, ALampOnGpioIsRead) {
@@ -200,14 +203,16 @@ TEST_F(BoxSettingsTest, ALampOnGpioIsRead) {
 }
 
 TEST_F(BoxSettingsTest, MistakesOfALampAreTold) {
-  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"pwm\"\nlines = [\"1\"]\n"
-                                           "rest_permille = 5\nfrequency_hz = 1\n"));
+  EXPECT_FALSE(load(std::string(kCamera) +
+                    "[lamp]\nkind = \"pwm\"\nlines = [\"1\"]\n"
+                    "rest_permille = 5\nfrequency_hz = 1\nsilent_permille = 7\n"));
   EXPECT_TRUE(told("lamp.chip: "));
   EXPECT_TRUE(told("lamp.channel: "));
   EXPECT_TRUE(told("box.toml:7: lamp.lines: of another kind of lamp, expected it left out"));
   EXPECT_TRUE(told("box.toml:8: lamp.rest_permille: of a time at full power, which needs "));
   EXPECT_TRUE(told("box.toml:9: lamp.frequency_hz: 1"));
-  EXPECT_EQ(messages_.size(), 5U);
+  EXPECT_TRUE(told("box.toml:10: lamp.silent_permille: of a silent link, which needs "));
+  EXPECT_EQ(messages_.size(), 6U);
 
   EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"));
   EXPECT_TRUE(told("lamp.lines: missing, expected 1 to 8 lines"));

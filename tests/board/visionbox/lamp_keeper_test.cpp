@@ -174,6 +174,18 @@ TEST_F(LampKeeperTest, ALampThatGoesIsToldAndOpenedAgain) {
   EXPECT_GE(keeper_.report().failures, 1);
 }
 
+TEST_F(LampKeeperTest, NoMoreShinesThanMay) {
+  ASSERT_TRUE(keeper_.start());
+  ASSERT_TRUE(keeper_.set_level(800));
+  ASSERT_TRUE(within_two_seconds([&] { return lamp_.last() == 800; }));
+
+  keeper_.set_most(300);
+  ASSERT_TRUE(within_two_seconds([&] { return lamp_.last() == 300; }));
+  EXPECT_EQ(keeper_.level_permille(), 800) << "what is wanted is not forgotten";
+  keeper_.set_most(1000);
+  EXPECT_TRUE(within_two_seconds([&] { return lamp_.last() == 800; }));
+}
+
 TEST_F(LampKeeperTest, MakingDarkIsAStartAndAStop) {
   EXPECT_EQ(make_dark(lamp_), "");
   EXPECT_EQ(lamp_.levels(), (std::vector<std::int32_t>{-1}));
