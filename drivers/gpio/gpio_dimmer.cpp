@@ -107,6 +107,10 @@ Result<void> GpioDimmer::set_level(std::int32_t permille) {
     return Unexpected(Error::kOutOfRange);
   }
   wanted_permille_ = permille;
+  if (permille == 0 && pulsed()) {
+    // At once, whatever the thread is at: it may be the last thing that the program does.
+    static_cast<void>(bank_->set(0));
+  }
   const int status = pulsed() ? status_.exchange(0) : bank_->set(steps_of(permille));
   if (status != 0) {
     return Unexpected(error_of(status));

@@ -35,6 +35,8 @@ class GpioDimmer final : public hal::Dimmer {
   /// message() says what is wrong.
   [[nodiscard]] core::Result<void> start() override;
   void stop() override;
+  /// Dark is there at once; other levels of a pulsed line with its next pulse. Neither locks nor
+  /// allocates.
   [[nodiscard]] core::Result<void> set_level(std::int32_t permille) override;
   [[nodiscard]] std::int32_t level_permille() const override { return level_permille_; }
 

@@ -30,7 +30,8 @@ struct GpioChip {
 };
 
 /// Output lines by the library at hand: where the versions of libgpiod differ, and where tests put
-/// lines of their own. One thread at a time.
+/// lines of their own. One thread at a time, but for set(0), which may come from another while one
+/// sets.
 class LineBank {
  public:
   virtual ~LineBank() = default;

@@ -133,6 +133,19 @@ TEST(GpioDimmer, FullLightHasNoPauses) {
   EXPECT_EQ(bench.log().all(), (std::vector<std::uint32_t>{1, 0}));
 }
 
+TEST(GpioDimmer, DarkDoesNotWaitForThePulsesThread) {
+  GpioBench bench({"18"});
+  ASSERT_TRUE(bench.dimmer().start());
+  ASSERT_TRUE(bench.dimmer().set_level(1000));
+  ASSERT_TRUE(bench.changes(1));
+
+  ASSERT_TRUE(bench.dimmer().set_level(0));
+
+  EXPECT_EQ(bench.log().all()[1], 0u);
+  std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(bench.log().all().back(), 0u) << "and stays";
+}
+
 TEST(GpioDimmer, SeveralLinesAreStepsOfLight) {
   GpioBench bench({"18", "23", "24"});
   ASSERT_TRUE(bench.dimmer().start());
