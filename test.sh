@@ -77,6 +77,9 @@ for stage in "${stages[@]}"; do
         failed+=("$stage")
         continue
       fi
+      if [ "$stage" = bench ] && ! toolchain/gpiod2.sh build/gpiod2; then
+        echo "=== libgpiod 2.x is not tested: its header could not be fetched"
+      fi
       cmake --workflow --preset "$stage" || failed+=("$stage")
       ;;
   esac

@@ -15,6 +15,7 @@ bench=(
   libtomlplusplus-dev   # settings
   libcli11-dev          # the command line
   libmodbus-dev         # the robot's link
+  libgpiod-dev          # a lamp on GPIO lines
 )
 test=(
   libgtest-dev          # tests on the PC

@@ -17,6 +17,7 @@ packages=(
   libtomlplusplus-dev  # drivers/settings
   libmodbus5           # drivers/modbus: a shared library
   libmodbus-dev        # and its header
+  libgpiod-dev         # drivers/gpio
   libcli11-dev         # board/bench
 )
 

@@ -280,7 +280,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   SimulateOptions simulate_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
   const CLI::App* const devices = app.add_subcommand(
-      "devices", "Serial ports of this machine, as the settings of a box name them");
+      "devices",
+      "Cameras, GPIO and PWM chips and serial ports of this machine, as the settings of a box name "
+      "them");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {

@@ -132,7 +132,9 @@ void BoxLoop<S, Margin>::take(const core::Field& field) {
   last_number_ = field.number;
   input_.lamp_dimmed = ports_.dimmer != nullptr;
   if (input_.lamp_dimmed) {
-    input_.field.lamp_permille = ports_.dimmer->level_permille();
+    input_.field.lamp_permille = ports_.lamp_history == nullptr
+                                     ? ports_.dimmer->level_permille()
+                                     : ports_.lamp_history->level_permille_at(field.mid_exposure);
   }
   gather_events();
   session_->step(input_, output_);
@@ -239,14 +241,16 @@ void BoxLoop<S, Margin>::send(Port* port, const core::Reply& reply, PortCounters
   }
 }
 
-/// A level that the dimmer refused is tried again after the next field.
+/// A level that the dimmer refused is tried again after the next field. A session that nobody told
+/// a level wants what is in force, which on the way to another level says nothing.
 template <core::Scalar S, typename Margin>
 void BoxLoop<S, Margin>::set_lamp() {
   if (ports_.dimmer == nullptr) {
     return;
   }
   const std::int32_t wanted = output_.lamp_permille;
-  if (wanted != ports_.dimmer->level_permille() && !ports_.dimmer->set_level(wanted)) {
+  if (wanted != input_.field.lamp_permille && wanted != ports_.dimmer->level_permille() &&
+      !ports_.dimmer->set_level(wanted)) {
     ++counters_.dimmer_errors;
   }
 }

@@ -19,6 +19,7 @@
 #include "hal/clock.h"
 #include "hal/dimmer.h"
 #include "hal/frame_grabber.h"
+#include "hal/lamp_history.h"
 #include "hal/operator_station.h"
 #include "hal/robot_link.h"
 
@@ -31,6 +32,7 @@ struct BoxPorts {
   hal::Dimmer* dimmer = nullptr;
   hal::RobotLink* link = nullptr;
   hal::OperatorStation* station = nullptr;
+  const hal::LampHistory* lamp_history = nullptr;  ///< null: the dimmer's level is in force at once
 };
 
 /// What works beside the tracking; null: nobody needs it. All outlive the loop.

@@ -52,6 +52,15 @@ void add_source(JsonLine& line, const BoxReport& report) {
   line.add("passes", report.passes).add("failures", report.failures);
   line.add("made_late", report.made_late);
   line.add("errors", report.tracking.source_errors).close();
+  if (!report.camera) {
+    return;
+  }
+  line.open("camera").add("well", report.camera->well).add("words", report.camera->words);
+  line.add("counts", report.camera->counts).add("stamps", report.camera->stamps);
+  for (const auto& [name, count] : report.camera->counters) {
+    line.add(name, count);
+  }
+  line.close();
 }
 
 void add_sighting(JsonLine& line, const core::Sighting& sighting) {
@@ -198,6 +207,7 @@ std::string status_text(const BoxReport& report) {
   if (report.made_late > 0) {
     text += ", " + std::to_string(report.made_late) + " made too late";
   }
+  text += report.camera ? "\ncamera    " + report.camera->words : "";
   text += "\ntracking  " + sighting_text(tracking.sighting);
   text += "\nfields    " + std::to_string(tracking.counters.fields) + ", of which " +
           std::to_string(tracking.counters.missing) + " did not come; " +
@@ -207,6 +217,7 @@ std::string status_text(const BoxReport& report) {
           std::to_string(tracking.late) + " later than the deadline";
   text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
                                           : std::string("nobody dims it"));
+  text += report.lamp && !report.lamp->open ? ", its device cannot be had" : "";
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
@@ -246,7 +257,12 @@ std::string status_answer(const BoxReport& report) {
     add_latency(line, "step", tracking.step);
     add_latency(line, "grab_to_sighting", tracking.grab_to_sighting);
     line.add("late", tracking.late);
-    line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille).close();
+    line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille);
+    if (report.lamp) {
+      line.add("open", report.lamp->open).add("resting", report.lamp->resting);
+      line.add("failures", report.lamp->failures);
+    }
+    line.close();
   }
   add_link(line, report);
   add_recorder(line, report);
@@ -263,6 +279,9 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
   std::vector<SelfTestRow> rows;
   rows.push_back({"source", good_if(report.source == SourceState::kPlaying),
                   std::string(report.source_kind) + ", " + std::string(name_of(report.source))});
+  if (report.camera) {
+    rows.push_back({"camera", good_if(report.camera->well), report.camera->words});
+  }
   const double nominal =
       report.span.count() > 0 ? 1.0 / std::chrono::duration<double>(report.span).count() : 0.0;
   rows.push_back(
@@ -275,7 +294,9 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                   latency_text(tracking.grab_to_sighting) + ", " + std::to_string(tracking.late) +
                       " fields later than " + rate_text(report.deadline_ms) + " ms"});
   rows.push_back({"lamp",
-                  tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0) : Verdict::kAbsent,
+                  tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0 &&
+                                          (!report.lamp || report.lamp->open))
+                                : Verdict::kAbsent,
                   tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille, " +
                                       std::to_string(tracking.counters.dimmer_errors) + " errors"
                                 : "nobody dims it"});

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/camera.h"
+#include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
-#include "board/visionbox/played_source.h"
+#include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/recording_writer.h"
 #include "board/visionbox/tracking_thread.h"
 
@@ -24,7 +27,9 @@ struct BoxReport {
   core::FieldTime span{0};  ///< from one field to the next, as the source says
   std::int64_t passes = 0;
   std::int64_t failures = 0;
-  std::int64_t made_late = 0;  ///< fields that the source made after their instant
+  std::int64_t made_late = 0;          ///< fields that the source made after their instant
+  std::optional<CameraStatus> camera;  ///< empty: the source is none
+  std::optional<LampReport> lamp;      ///< empty: nobody dims it, or a played one
 
   std::string_view link_kind;
   LinkReport link;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/camera_settings.h"
+#include "board/visionbox/refused_keys.h"
 #include "board/visionbox/settings_path.h"
 #include "core/base/scalar.h"
 #include "core/session/session.h"
@@ -23,9 +25,11 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 5> kBoxTables = {"source", "control", "realtime", "link",
-                                                        "record"};
-constexpr std::array<std::string_view, 2> kSourceKinds = {"replay", "simulated"};
+constexpr std::array<std::string_view, 5> kBoxTables = {"source", "control", "realtime",
+                                                        "link",   "record",  "lamp"};
+constexpr std::array<std::string_view, 3> kSourceKinds = {"replay", "simulated", "v4l2"};
+constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
+                                                         "script"};
 constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
 
 constexpr drivers::WholeRange kPriority{0, 99};
@@ -56,12 +60,8 @@ void read_file(const SettingsDocument& document, TableReader& table, std::string
   }
 }
 
-void read_source(const SettingsDocument& document, TableReader& table, SourceSettings& source) {
-  std::size_t kind = 0;
+void read_played(const SettingsDocument& document, TableReader& table, SourceSettings& source) {
   std::size_t at_end = 0;
-  if (table.word("kind", kSourceKinds, kind)) {
-    source.kind = static_cast<SourceKind>(kind);
-  }
   if (table.optional_word("at_end", kAtEnd, at_end)) {
     source.loop = at_end == 0;
   }
@@ -72,6 +72,23 @@ void read_source(const SettingsDocument& document, TableReader& table, SourceSet
             source.recording);
   read_file(document, table, "scenario", known ? simulated : table.has("scenario"),
             source.scenario);
+}
+
+void read_source(const SettingsDocument& document, TableReader& table, SourceSettings& source) {
+  std::size_t kind = 0;
+  if (!table.word("kind", kSourceKinds, kind)) {
+    read_played(document, table, source);
+    ignore_keys(table, kV4l2Keys);
+    return;
+  }
+  source.kind = static_cast<SourceKind>(kind);
+  if (source.kind == SourceKind::kV4l2) {
+    read_v4l2(table, source.v4l2);
+    refuse_keys(table, kPlayedKeys, "of another kind of source");
+    return;
+  }
+  read_played(document, table, source);
+  refuse_keys(table, kV4l2Keys, "of another kind of source");
 }
 
 void read_control(const SettingsDocument& document, TableReader& table, std::string& socket) {
@@ -109,6 +126,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.real_time = {};
   box.link = {};
   box.record = {};
+  box.lamp = {};
   drivers::read_table(document, "source", true,
                       [&](TableReader& table) { read_source(document, table, box.source); });
   drivers::read_table(document, "control", false, [&](TableReader& table) {
@@ -120,11 +138,19 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_link(table, box.link); });
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
+  drivers::read_table(document, "lamp", false, [&](TableReader& table) {
+    read_lamp(table, box.source.kind == SourceKind::kV4l2, box.lamp);
+  });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;
   }
   drivers::read_session(document, kBoxNeeds, box.session);
+  const core::CameraSettings& camera = box.session.settings.camera;
+  box.source.v4l2.width_px = camera.width_px;
+  box.source.v4l2.height_px = camera.height_px;
+  box.source.v4l2.scan = camera.scan;
+  box.source.v4l2.serial = box.session.camera_quality.serial;
   if (document.problems().empty() &&
       !std::make_unique<core::session::Session<core::FixedPoint>>()->configure(
           box.session.settings)) {
@@ -144,6 +170,8 @@ void check_memory(SettingsDocument& document, const BoxSettings& box) {
 }
 
 }  // namespace
+
+std::string_view name_of(SourceKind kind) { return kSourceKinds[static_cast<std::size_t>(kind)]; }
 
 core::Result<void> load_box_settings(drivers::TextFiles& files, const std::string& path,
                                      BoxSettings& box, drivers::Messages& messages) {

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
+#include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
@@ -11,20 +13,25 @@
 #include "drivers/scenario/scenario_file.h"
 #include "drivers/settings/session_settings.h"
 #include "drivers/settings/text_files.h"
+#include "drivers/v4l2/v4l2_settings.h"
 
 namespace tubesight::board {
 
 /// What the box watches; the order of the words of `kind`.
-enum class SourceKind : std::uint8_t { kReplay, kSimulated };
+enum class SourceKind : std::uint8_t { kReplay, kSimulated, kV4l2 };
+
+/// The word of a kind.
+[[nodiscard]] std::string_view name_of(SourceKind kind);
 
 /// The table `[source]`. Paths are as they can be opened: relative ones were resolved from the
 /// folder of the file that names them.
 struct SourceSettings {
   SourceKind kind = SourceKind::kReplay;
-  std::string recording;  ///< of a replay
-  std::string scenario;   ///< of a simulation
-  bool loop = true;       ///< begin anew at the end
-  bool script = false;    ///< play the robot and the operator that are written down, too
+  std::string recording;       ///< of a replay
+  std::string scenario;        ///< of a simulation
+  bool loop = true;            ///< begin anew at the end
+  bool script = false;         ///< play the robot and the operator that are written down, too
+  drivers::V4l2Settings v4l2;  ///< of a camera, with what the session says of it
 };
 
 /// Everything that the box is started with. Some 900 KB: static or heap, never on a stack.
@@ -34,6 +41,7 @@ struct BoxSettings {
   RealTimeSettings real_time;
   LinkSettings link;
   RecordSettings record;
+  LampSettings lamp;
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it
 

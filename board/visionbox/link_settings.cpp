@@ -9,6 +9,8 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
+#include "board/visionbox/refused_keys.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -31,26 +33,6 @@ constexpr drivers::WholeRange kStopBits{1, 2};
 constexpr drivers::WholeRange kUnit{1, 247};
 constexpr drivers::WholeRange kPort{1, 65535};
 constexpr std::size_t kLongestDevice = 255;
-
-/// Keys that nothing would obey: somebody believes that they mean something.
-template <std::size_t N>
-void refuse_keys(TableReader& table, const std::array<std::string_view, N>& keys,
-                 const std::string& why) {
-  for (const std::string_view key : keys) {
-    if (table.has(key)) {
-      table.complain(key, why + ", expected it left out");
-    }
-    table.ignore(key);
-  }
-}
-
-/// Whether they are mistakes hangs on something that is one itself.
-template <std::size_t N>
-void ignore_keys(TableReader& table, const std::array<std::string_view, N>& keys) {
-  for (const std::string_view key : keys) {
-    table.ignore(key);
-  }
-}
 
 void read_line(TableReader& table, drivers::SerialSettings& line) {
   std::size_t parity = static_cast<std::size_t>(line.parity);

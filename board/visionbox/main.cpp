@@ -16,6 +16,7 @@
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/box_watch.h"
 #include "board/visionbox/control_desk.h"
+#include "board/visionbox/lamp_device.h"
 #include "board/visionbox/log.h"
 #include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/vision_box.h"
@@ -94,15 +95,28 @@ int run(const BoxSettings& settings) {
   return kDone;
 }
 
+/// What a service manager calls when the box has died: the lamp is left in no state that a dead
+/// program chose.
+int darken(const BoxSettings& settings) {
+  const auto lamp = make_lamp(settings.lamp);
+  const std::string why = lamp == nullptr ? std::string() : make_dark(*lamp);
+  if (!why.empty()) {
+    std::fprintf(stderr, "tubesightd: %s\n", why.c_str());
+  }
+  return why.empty() ? kDone : kFailed;
+}
+
 int run_program(int argc, const char* const* argv) {
   CLI::App app("Tubesight's vision box as a service", "tubesightd");
   app.set_version_flag("--version", version_text("tubesightd"),
                        "Print version, commit and arithmetic, and exit");
   std::string path;
   bool check = false;
+  bool dark = false;
   app.add_option("BOX.toml", path, "Settings of the box: source, control, link, session (TOML)")
       ->required();
   app.add_flag("--check", check, "Read the settings, tell every mistake, and exit");
+  app.add_flag("--dark", dark, "Make the lamp dark, as after a box that was killed, and exit");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -123,7 +137,10 @@ int run_program(int argc, const char* const* argv) {
   if (!good) {
     return kWrongInput;
   }
-  return check ? kDone : run(*settings);
+  if (check) {
+    return kDone;
+  }
+  return dark ? darken(*settings) : run(*settings);
 }
 
 }  // namespace

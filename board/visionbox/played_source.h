@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "board/visionbox/field_player.h"
+#include "board/visionbox/field_source.h"
 #include "board/visionbox/source_clock.h"
 #include "board/visionbox/wakeup.h"
 #include "core/base/field.h"
@@ -21,14 +22,6 @@
 #include "hal/frame_grabber.h"
 
 namespace tubesight::board {
-
-/// How a source is doing.
-enum class SourceState : std::uint8_t {
-  kOpening,  ///< it has delivered nothing yet
-  kPlaying,
-  kEnded,   ///< it came to its end and is not played again
-  kFailed,  ///< it will be opened again after a while
-};
 
 /// How a source is played.
 struct PlayedSourceSettings {
@@ -45,7 +38,7 @@ struct PlayedSourceSettings {
 /// Whatever ends or fails is opened again by that thread, after waits that double. A new beginning
 /// lies a second after the end before it, in time and in sequence, so that no track goes on over
 /// it. The grabber's functions belong to the tracking thread and allocate nothing.
-class PlayedSource final : public hal::FrameGrabber {
+class PlayedSource final : public FieldSource {
  public:
   using Tell = std::function<void(const std::string&)>;
 
@@ -70,22 +63,21 @@ class PlayedSource final : public hal::FrameGrabber {
   [[nodiscard]] const core::Event* next_said() const;
   void take_said();
 
-  [[nodiscard]] const hal::Clock& clock() const { return clock_; }
-  [[nodiscard]] SourceState state() const { return state_.load(); }
-  /// From one field to the next; a guess before the source was opened.
-  [[nodiscard]] core::FieldTime span() const { return core::FieldTime{span_ns_.load()}; }
+  [[nodiscard]] const hal::Clock& clock() const override { return clock_; }
+  [[nodiscard]] SourceState state() const override { return state_.load(); }
+  [[nodiscard]] core::FieldTime span() const override { return core::FieldTime{span_ns_.load()}; }
+  [[nodiscard]] std::int32_t fields_at_once() const override { return 1; }
   [[nodiscard]] std::int64_t delivered() const { return delivered_.load(); }
   /// Times that it was played from its beginning, and times that it failed.
-  [[nodiscard]] std::int64_t passes() const { return passes_.load(); }
-  [[nodiscard]] std::int64_t failures() const { return failures_.load(); }
+  [[nodiscard]] std::int64_t passes() const override { return passes_.load(); }
+  [[nodiscard]] std::int64_t failures() const override { return failures_.load(); }
   /// Fields that were made after their instant: the machine is too slow to play them, or busy.
-  [[nodiscard]] std::int64_t made_late() const { return made_late_.load(); }
+  [[nodiscard]] std::int64_t made_late() const override { return made_late_.load(); }
   /// Events of the script that found no room.
   [[nodiscard]] std::int64_t unsaid() const { return unsaid_; }
 
-  /// When the last field was due, and when it was handed over. Of the tracking thread.
-  [[nodiscard]] MonotonicTime due() const { return due_; }
-  [[nodiscard]] MonotonicTime handed_over() const { return handed_over_; }
+  [[nodiscard]] MonotonicTime due() const override { return due_; }
+  [[nodiscard]] MonotonicTime handed_over() const override { return handed_over_; }
 
   /// The lamp level that the next field is made with. Any thread.
   void set_lamp_permille(std::int32_t permille) { lamp_permille_ = permille; }

@@ -7,17 +7,18 @@
 namespace tubesight::board {
 namespace {
 
-/// A field that is later than this is a missing one: between one and two fields, as a rule.
-constexpr double kPatienceInFields = 1.75;
+/// A field that is later than this is a missing one: between one and two of the times in which some
+/// come, as a rule.
+constexpr double kPatience = 1.75;
 /// A turn is the millisecond's business, whatever a source says of its rate.
 constexpr std::chrono::milliseconds kShortest{5};
 constexpr std::chrono::milliseconds kLongest{1000};
 
 }  // namespace
 
-TrackingThread::TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+TrackingThread::TrackingThread(Loop& loop, FieldSource& source, const Told& told,
                                const RealTimeSettings& settings)
-    : loop_(&loop), source_(&source), link_(link), settings_(settings) {}
+    : loop_(&loop), source_(&source), told_(told), settings_(settings) {}
 
 std::string TrackingThread::start() {
   stopping_ = false;
@@ -47,7 +48,8 @@ void TrackingThread::run() {
 }
 
 void TrackingThread::turn() {
-  const std::chrono::duration<double> patience = kPatienceInFields * source_->span();
+  const std::chrono::duration<double> patience =
+      kPatience * source_->fields_at_once() * source_->span();
   const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
                                   kShortest, kLongest);
   if (!loop_->turn(timeout)) {
@@ -86,7 +88,7 @@ void TrackingThread::publish() {
 }
 
 void TrackingThread::tell_robot() {
-  if (link_ == nullptr) {
+  if (told_.link == nullptr) {
     return;
   }
   using drivers::Health;
@@ -97,7 +99,8 @@ void TrackingThread::tell_robot() {
                                                     : Health::kFailed;
   health.lamp_dimmed = now_.lamp;
   if (now_.lamp) {
-    const bool failed = now_.counters.dimmer_errors > dimmer_errors_;
+    const bool failed = now_.counters.dimmer_errors > dimmer_errors_ ||
+                        (told_.lamp != nullptr && !told_.lamp->report().open);
     health.lamp = failed ? Health::kFailed : Health::kWell;
     health.lamp_permille = now_.lamp_permille;
   }
@@ -105,7 +108,7 @@ void TrackingThread::tell_robot() {
   health.fields = now_.counters.fields;
   health.fields_missing = now_.counters.missing;
   health.fields_late = now_.late;
-  link_->set_health(health);
+  told_.link->set_health(health);
 }
 
 }  // namespace tubesight::board

@@ -7,10 +7,12 @@
 #include <thread>
 
 #include "board/box/box_loop.h"
+#include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/latency_histogram.h"
-#include "board/visionbox/played_source.h"
 #include "board/visionbox/real_time.h"
+#include "board/visionbox/wakeup.h"
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/base/snapshot.h"
@@ -38,9 +40,15 @@ class TrackingThread {
  public:
   using Loop = BoxLoop<core::FixedPoint>;
 
+  /// Whom the robot's view of the box comes from and goes to; null: there is none.
+  struct Told {
+    KeptLink* link = nullptr;
+    const LampKeeper* lamp = nullptr;
+  };
+
   /// All outlive the thread. The loop and the source are started by others. The robot reads over
-  /// `link` how the box is doing; null: there is none.
-  TrackingThread(Loop& loop, PlayedSource& source, KeptLink* link,
+  /// the link how the box is doing.
+  TrackingThread(Loop& loop, FieldSource& source, const Told& told,
                  const RealTimeSettings& settings);
   TrackingThread(const TrackingThread&) = delete;
   TrackingThread& operator=(const TrackingThread&) = delete;
@@ -64,8 +72,8 @@ class TrackingThread {
   void tell_robot();
 
   Loop* loop_;
-  PlayedSource* source_;
-  KeptLink* link_;
+  FieldSource* source_;
+  Told told_;
   RealTimeSettings settings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};

@@ -4,7 +4,7 @@ _tubesightd() {
   local cur=${COMP_WORDS[COMP_CWORD]}
   compopt -o filenames 2> /dev/null
   case $cur in
-    -*) mapfile -t COMPREPLY < <(compgen -W "-h --help --version --check" -- "$cur") ;;
+    -*) mapfile -t COMPREPLY < <(compgen -W "-h --help --version --check --dark" -- "$cur") ;;
     *) mapfile -t COMPREPLY < <(compgen -d -- "$cur"; compgen -f -X "!*.toml" -- "$cur") ;;
   esac
 }

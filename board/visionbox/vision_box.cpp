@@ -1,8 +1,8 @@
 #include "board/visionbox/vision_box.h"
 
+#include "board/visionbox/camera_world.h"
 #include "board/visionbox/link_identity.h"
-#include "board/visionbox/replay_player.h"
-#include "board/visionbox/simulated_player.h"
+#include "board/visionbox/played_world.h"
 #include "core/base/assert.h"
 
 namespace tubesight::board {
@@ -12,12 +12,13 @@ using core::Error;
 using core::Result;
 using core::Unexpected;
 
-std::unique_ptr<FieldPlayer> make_player(const BoxSettings& settings) {
-  if (settings.source.kind == SourceKind::kSimulated) {
-    return std::make_unique<SimulatedPlayer>(settings.scenario.scenario, settings.source.script);
+std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::OperatorStation& station,
+                                         const VisionBox::Tell& tell) {
+  if (settings.source.kind == SourceKind::kV4l2) {
+    return std::make_unique<CameraWorld>(settings, station, tell);
   }
-  return std::make_unique<ReplayPlayer>(settings.told(), settings.source.recording,
-                                        settings.source.script);
+  return std::make_unique<PlayedWorld>(settings, station, settings.link.kind == LinkKind::kNone,
+                                       tell);
 }
 
 /// Null: there is none.
@@ -56,31 +57,23 @@ std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxS
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
     : settings_(&settings),
       tell_(std::move(tell)),
-      player_(make_player(settings)),
-      source_(*player_, source_settings(), tell_),
+      world_(make_world(settings, socket_station_, tell_)),
+      source_(world_->source()),
       kept_link_(make_link(settings, source_.clock(), tell_)),
+      silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, tell_)),
       loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false, recorder_.get()}),
-      tracking_(loop_, source_, kept_link_.get(), settings.real_time) {}
-
-PlayedSourceSettings VisionBox::source_settings() const {
-  const core::CameraSettings& camera = settings_->told().camera;
-  PlayedSourceSettings source;
-  source.loop = settings_->source.loop;
-  source.width_px = camera.width_px;
-  source.height_px = camera.height_px;
-  return source;
-}
+      tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
 
 /// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
   hal::RobotLink* link = kept_link_.get();
   if (link == nullptr) {
-    link = &scripted_link_;
+    link = world_->scripted_robot();
   }
-  return {&source_, &source_.clock(), player_->has_lamp() ? &dimmer_ : nullptr, link, &station_};
+  return {&source_, &source_.clock(), world_->dimmer(), link, &world_->station(), world_->lamp()};
 }
 
 Result<void> VisionBox::start_without_tracking() {
@@ -140,13 +133,25 @@ void VisionBox::look_after() {
   if (kept_link_ != nullptr) {
     kept_link_->look_after(monotonic_now());
   }
+  if (kept_link_ != nullptr && world_->lamp() != nullptr) {
+    TrackingStatus status;
+    const bool known = tracking_.status(status);
+    const bool tracking = known && (status.sighting.state == core::TrackState::kTracking ||
+                                    status.sighting.state == core::TrackState::kDegraded);
+    world_->lamp()->set_most(silent_link_.most_permille(kept_link_->report().counters.requests,
+                                                        tracking, monotonic_now()));
+  }
 }
 
 BoxReport VisionBox::report() const {
   BoxReport report;
   report.turned = tracking_.status(report.tracking);
   report.up = monotonic_now() - started_at_;
-  report.source_kind = settings_->source.kind == SourceKind::kSimulated ? "simulated" : "replay";
+  report.source_kind = name_of(settings_->source.kind);
+  report.camera = world_->camera();
+  if (world_->lamp() != nullptr) {
+    report.lamp = world_->lamp()->report();
+  }
   report.source = source_.state();
   report.span = source_.span();
   report.passes = source_.passes();

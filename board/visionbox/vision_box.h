@@ -11,14 +11,12 @@
 #include "board/box/pose_service.h"
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
-#include "board/visionbox/field_player.h"
 #include "board/visionbox/kept_link.h"
-#include "board/visionbox/panic_dimmer.h"
-#include "board/visionbox/played_source.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
-#include "board/visionbox/script_ports.h"
+#include "board/visionbox/silent_link.h"
 #include "board/visionbox/tracking_thread.h"
+#include "board/visionbox/watched_world.h"
 #include "core/base/result.h"
 #include "core/session/session.h"
 #include "drivers/control/socket_station.h"
@@ -51,8 +49,9 @@ class VisionBox {
   /// Stops everything; the lamp goes dark.
   void stop();
 
-  /// Does what is left to do beside the tracking: opens a link that could not be opened. To be
-  /// called now and then, on the thread that started the box.
+  /// Does what is left to do beside the tracking: opens a link that could not be opened, and lets
+  /// the lamp rest when the robot is silent. To be called now and then, on the thread that started
+  /// the box.
   void look_after();
 
   [[nodiscard]] BoxReport report() const;
@@ -70,7 +69,6 @@ class VisionBox {
   [[nodiscard]] const TrackingThread::Loop& loop() const { return loop_; }
 
  private:
-  [[nodiscard]] PlayedSourceSettings source_settings() const;
   [[nodiscard]] BoxPorts ports();
 
   const BoxSettings* settings_;
@@ -79,15 +77,11 @@ class VisionBox {
   bool memory_locked_ = false;
   MonotonicTime started_at_{0};
 
-  std::unique_ptr<FieldPlayer> player_;
-  PlayedSource source_;
-  PlayedDimmer lamp_{source_};
-  PanicDimmer dimmer_{lamp_};
-
   drivers::SocketStation socket_station_;
-  ScriptedLink scripted_link_{source_};
+  std::unique_ptr<WatchedWorld> world_;
+  FieldSource& source_;
   std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
-  ScriptedStation station_{source_, socket_station_, kept_link_ == nullptr};
+  SilentLink silent_link_;
 
   core::session::Session<core::FixedPoint> session_;
   PoseService poses_;

@@ -244,6 +244,8 @@ void read_verification(TableReader& table, core::VerificationSettings& verificat
 
 void read_quality(TableReader& table, CalibrationQuality& quality) {
   table.text("id", quality.id);
+  quality.serial.clear();
+  table.optional_text("serial", quality.serial);
   for (const std::string_view key : {"made_at", "sigma", "correlation", "verdict"}) {
     table.ignore(key);
   }

@@ -39,6 +39,7 @@ void read_verification(TableReader& table, core::VerificationSettings& verificat
 /// What a calibration says of itself: `[camera_quality]` or `[tool_quality]`.
 struct CalibrationQuality {
   std::string id;          ///< empty when there is no table
+  std::string serial;      ///< of the camera that was calibrated; empty: it is not said
   bool has_sigma = false;  ///< `sigma` is there as six numbers, none below zero
   /// One standard deviation each: of focal_length_mm, horizontal_scale, center_px (2),
   /// distortion_per_mm2, distortion2_per_mm4; or of position_mm (3), rotation_deg (3).
@@ -47,8 +48,8 @@ struct CalibrationQuality {
   std::array<double, 36> correlation{};
 };
 
-/// `[camera_quality]`, `[tool_quality]`: `id` must be there, the rest is taken where it has the
-/// form above and else left out.
+/// `[camera_quality]`, `[tool_quality]`: `id` must be there, `serial` may be; the rest is taken
+/// where it has the form above and else left out.
 void read_quality(TableReader& table, CalibrationQuality& quality);
 
 /// `[base]`: T_sheet_base, checked only.

@@ -224,6 +224,23 @@ bool TableReader::optional_text(std::string_view key, std::string& value) {
   return absent(key) || text(key, value);
 }
 
+bool TableReader::optional_texts(std::string_view key, std::vector<std::string>& values) {
+  const toml::array* const entries = list(key, false, "a list of texts");
+  if (entries == nullptr) {
+    return sound(key);
+  }
+  values.clear();
+  for (std::size_t i = 0; i < entries->size(); ++i) {
+    const auto text = (*entries)[i].value_exact<std::string>();
+    if (!text) {
+      complain_entry(key, i, (*entries)[i], describe((*entries)[i]) + ", expected a text");
+      return false;
+    }
+    values.push_back(*text);
+  }
+  return true;
+}
+
 bool TableReader::optional_word(std::string_view key, std::span<const std::string_view> words,
                                 std::size_t& index) {
   return absent(key) || word(key, words, index);

@@ -58,6 +58,8 @@ class TableReader {
   bool optional_word(std::string_view key, std::span<const std::string_view> words,
                      std::size_t& index);
   bool optional_switch(std::string_view key, bool& value);  ///< true or false
+  /// A list of texts, which replaces `values`.
+  bool optional_texts(std::string_view key, std::vector<std::string>& values);
   /// [row, column].
   bool address(std::string_view key, core::TubeAddress& value);
 

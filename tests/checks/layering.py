@@ -71,9 +71,11 @@ DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits c
 POSIX = re.compile(r"^(errno|fcntl|poll|sched|signal|unistd|sys/[a-z_]+)\.h$")
 DRIVER_LIBRARY = {
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
+    "drivers/gpio": re.compile(r"^gpiod\.h$"),
     "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),
     "drivers/settings": re.compile(r"^toml\+\+/"),
     "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it
+    "drivers/v4l2": re.compile(r"^linux/videodev2\.h$"),
 }
 
 FORBIDDEN_BELOW_BOARD = [

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -7,13 +8,20 @@
 namespace tubesight::tests {
 namespace {
 
-TEST(DevicesProgram, ListsPortsOrSaysThatThereAreNone) {
+TEST(DevicesProgram, ListsEveryKindOrSaysThatThereAreNone) {
   const support::TemporaryFolder folder;
 
   const ProgramRun run = run_tubesight(folder, {"devices"});
 
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_TRUE(run.out == "no serial ports\n" || run.out.starts_with("serial ports, ")) << run.out;
+  std::size_t before = 0;
+  for (const std::string kind : {"cameras", "GPIO chips", "PWM chips", "serial ports"}) {
+    const std::size_t none = run.out.find("no " + kind + "\n");
+    const std::size_t some = run.out.find(kind + ", by the ");
+    EXPECT_NE(none == std::string::npos, some == std::string::npos) << kind << ": " << run.out;
+    EXPECT_GE(std::min(none, some), before) << "in this order";
+    before = std::min(none, some);
+  }
   EXPECT_EQ(run.err, "");
 }
 

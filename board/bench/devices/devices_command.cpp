@@ -1,13 +1,20 @@
 #include "board/bench/devices/devices_command.h"
 
+#include <string>
+
+#include "board/bench/devices/machine_devices.h"
 #include "board/bench/devices/serial_ports.h"
 #include "board/bench/output/text_output.h"
 
 namespace tubesight::board {
 
 ExitStatus run_devices() {
-  return write_out(serial_ports_text(list_serial_ports(""))) ? ExitStatus::kDone
-                                                             : ExitStatus::kJobFailed;
+  const std::string text =
+      cameras_text(drivers::v4l2::list_cameras(drivers::v4l2::system_kernel())) +
+      gpio_text(drivers::list_gpio_chips()) +
+      pwm_text(drivers::list_pwm_chips(drivers::kPwmClass)) +
+      serial_ports_text(list_serial_ports(""));
+  return write_out(text) ? ExitStatus::kDone : ExitStatus::kJobFailed;
 }
 
 }  // namespace tubesight::board

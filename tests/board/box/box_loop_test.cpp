@@ -38,6 +38,31 @@ TEST_F(BoxLoopStart, LightsTheLampAndOpensTheLines) {
   EXPECT_FALSE(station_.poll_event());
 }
 
+/// A lamp that was at one level until an instant, and at another from it on.
+class FakeLampHistory final : public hal::LampHistory {
+ public:
+  explicit FakeLampHistory(core::FieldTime at) : at_(at) {}
+  [[nodiscard]] std::int32_t level_permille_at(core::FieldTime instant) const override {
+    return instant < at_ ? 250 : 750;
+  }
+
+ private:
+  core::FieldTime at_;
+};
+
+TEST_F(BoxLoopStart, FieldsAreToldTheLightOfTheMiddleOfTheirExposure) {
+  const FakeLampHistory history(2 * kSpan);
+  ports_.lamp_history = &history;
+  make_loop();
+  ASSERT_TRUE(loop_->start());
+
+  take_field();
+  EXPECT_EQ(loop_->input().field.lamp_permille, 250);
+  take_field();
+  EXPECT_EQ(loop_->input().field.lamp_permille, 750);
+  EXPECT_EQ(dimmer_.level_permille(), 1000) << "and nobody takes that for a wish";
+}
+
 TEST_F(BoxLoopStart, StopsWhatItStartedWhenAPortFails) {
   const auto expect_failed = [this](Error error) {
     const auto started = loop_->start();

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/script_ports.h"
 #include "drivers/files/result_csv.h"
 #include "tests/support/events.h"
 
@@ -110,6 +111,31 @@ TEST(VisionBox, TakesAStartFromTheStationAndAnswersIt) {
   EXPECT_EQ(tests::content_of<core::StartReply>(*reply).refusal, core::StartRefusal::kNone);
   EXPECT_EQ(box->loop().output().sighting.state, core::TrackState::kTracking);
   EXPECT_EQ(box->loop().output().sighting.tool, (core::TubeAddress{40, 60}));
+}
+
+TEST(VisionBox, StartsWithoutItsCameraAndSaysSo) {
+  const auto settings = shipped(false);
+  settings->source.kind = SourceKind::kV4l2;
+  settings->source.v4l2.device = "serial:of no camera";
+  std::string told;
+  const auto box = std::make_unique<VisionBox>(
+      *settings, [&](const std::string& line) { told += told.empty() ? line : ""; });
+  ASSERT_TRUE(box->start_without_tracking());
+
+  box->tracking().turn();
+  box->tracking().turn();
+  const BoxReport report = box->report();
+  box->stop();
+
+  EXPECT_TRUE(told.starts_with("camera serial:of no camera: is not there, expected one of: "))
+      << told;
+  EXPECT_EQ(report.source_kind, "v4l2");
+  EXPECT_EQ(report.source, SourceState::kFailed);
+  EXPECT_EQ(report.tracking.sighting.status, core::FieldStatus::kMissing);
+  EXPECT_EQ(report.tracking.source_errors, 1) << "the frame's other field is not asked for";
+  ASSERT_TRUE(report.camera);
+  EXPECT_FALSE(report.camera->well);
+  EXPECT_EQ(report.camera->words, "not open");
 }
 
 TEST(VisionBox, StopsAndStartsOnce) {

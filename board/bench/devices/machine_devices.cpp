@@ -1,0 +1,78 @@
+#include "board/bench/devices/machine_devices.h"
+
+#include <cstddef>
+
+namespace tubesight::board {
+namespace {
+
+std::string list_of(const std::vector<std::string>& entries) {
+  std::string text;
+  for (const std::string& entry : entries) {
+    text += (text.empty() ? "" : ", ") + entry;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string cameras_text(const std::vector<drivers::v4l2::CameraInfo>& cameras) {
+  if (cameras.empty()) {
+    return "no cameras\n";
+  }
+  std::string text = "cameras, by the device to write into [source]:\n";
+  for (const drivers::v4l2::CameraInfo& camera : cameras) {
+    const std::string name = camera.name();
+    text += "  " + name + "\n      " + camera.node;
+    if (camera.busy) {
+      text += ", cannot be opened: busy, or of another user\n";
+      continue;
+    }
+    text += ", " + camera.card + ", driver " + camera.driver + ", bus:" + camera.bus + "\n";
+    for (const std::string& path : {camera.by_path, camera.by_id}) {
+      text += path.empty() || path == name ? "" : "      also " + path + "\n";
+    }
+    text += camera.serial.empty() ? "      says no serial number\n" : "";
+    text += camera.inputs.empty() ? "" : "      inputs: " + list_of(camera.inputs) + "\n";
+    for (const std::string& format : camera.formats) {
+      text += "      " + format + "\n";
+    }
+  }
+  return text;
+}
+
+std::string gpio_text(const std::vector<drivers::GpioChip>& chips) {
+  if (chips.empty()) {
+    return "no GPIO chips\n";
+  }
+  std::string text = "GPIO chips, by the chip to write into [lamp]:\n";
+  for (const drivers::GpioChip& chip : chips) {
+    std::vector<std::string> free;
+    std::vector<std::string> used;
+    for (std::size_t i = 0; i < chip.lines.size(); ++i) {
+      const drivers::GpioChip::Line& line = chip.lines[i];
+      const std::string told =
+          std::to_string(i) + (line.name.empty() ? "" : " (" + line.name + ")");
+      (line.user.empty() ? free : used)
+          .push_back(told + (line.user.empty() ? "" : " by " + line.user));
+    }
+    text += "  " + chip.label + "\n      " + chip.name + ", " + std::to_string(chip.lines.size()) +
+            " lines\n";
+    text += free.empty() ? "" : "      free: " + list_of(free) + "\n";
+    text += used.empty() ? "" : "      used: " + list_of(used) + "\n";
+  }
+  return text;
+}
+
+std::string pwm_text(const std::vector<drivers::PwmChip>& chips) {
+  if (chips.empty()) {
+    return "no PWM chips\n";
+  }
+  std::string text = "PWM chips, by the chip to write into [lamp]:\n";
+  for (const drivers::PwmChip& chip : chips) {
+    text += "  " + (chip.device.empty() ? chip.name : chip.device) + "\n      " + chip.name + ", " +
+            std::to_string(chip.channels) + (chip.channels == 1 ? " channel\n" : " channels\n");
+  }
+  return text;
+}
+
+}  // namespace tubesight::board

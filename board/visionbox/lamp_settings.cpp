@@ -1,0 +1,123 @@
+#include "board/visionbox/lamp_settings.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "board/visionbox/refused_keys.h"
+
+namespace tubesight::board {
+namespace {
+
+using drivers::TableReader;
+
+constexpr std::array<std::string_view, 3> kKinds = {"none", "pwm", "gpio"};
+constexpr std::array<std::string_view, 2> kPwmKeys = {"channel", "inverted"};
+constexpr std::array<std::string_view, 3> kGpioKeys = {"lines", "active_low", "priority"};
+constexpr std::array<std::string_view, 7> kSharedKeys = {
+    "chip",          "frequency_hz",   "soft_ms",        "full_for_s",
+    "rest_permille", "silent_after_s", "silent_permille"};
+
+constexpr drivers::WholeRange kChannel{0, 255};
+constexpr drivers::WholeRange kPwmFrequency{100, 100'000};
+/// A thread is to be woken twice in each period.
+constexpr drivers::WholeRange kGpioFrequency{100, 5'000};
+constexpr drivers::WholeRange kPriority{0, 99};
+constexpr drivers::WholeRange kSoft{0, 10'000};
+constexpr drivers::WholeRange kFullFor{0, 3'600};
+constexpr drivers::WholeRange kRest{0, 1'000};
+constexpr drivers::WholeRange kSilentAfter{0, 86'400};
+
+void read_care(TableReader& table, LampCare& care) {
+  auto soft_ms = static_cast<std::int32_t>(care.soft.count());
+  std::int32_t full_for_s = 0;
+  table.optional_whole("soft_ms", kSoft, soft_ms);
+  table.optional_whole("full_for_s", kFullFor, full_for_s);
+  care.soft = std::chrono::milliseconds(soft_ms);
+  care.full_for = std::chrono::seconds(full_for_s);
+  if (full_for_s > 0) {
+    table.whole("rest_permille", kRest, care.rest_permille);
+  } else if (table.sound("full_for_s")) {
+    refuse_keys(table, std::array<std::string_view, 1>{"rest_permille"},
+                "of a time at full power, which needs full_for_s");
+  } else {
+    table.ignore("rest_permille");
+  }
+}
+
+void read_silent_link(TableReader& table, SilentLinkSettings& silent) {
+  std::int32_t after_s = 0;
+  table.optional_whole("silent_after_s", kSilentAfter, after_s);
+  silent.after = std::chrono::seconds(after_s);
+  if (after_s > 0) {
+    table.whole("silent_permille", kRest, silent.most_permille);
+  } else if (table.sound("silent_after_s")) {
+    refuse_keys(table, std::array<std::string_view, 1>{"silent_permille"},
+                "of a silent link, which needs silent_after_s");
+  } else {
+    table.ignore("silent_permille");
+  }
+}
+
+void read_pwm(TableReader& table, drivers::PwmSettings& pwm) {
+  table.text("chip", pwm.chip);
+  table.whole("channel", kChannel, pwm.channel);
+  table.optional_whole("frequency_hz", kPwmFrequency, pwm.frequency_hz);
+  table.optional_switch("inverted", pwm.inverted);
+  refuse_keys(table, kGpioKeys, "of another kind of lamp");
+}
+
+void read_gpio(TableReader& table, drivers::GpioSettings& gpio) {
+  table.text("chip", gpio.bank.chip);
+  if (!table.has("lines")) {
+    table.complain("lines", "missing, expected 1 to 8 lines by number or name: [\"18\"]");
+  }
+  if (table.optional_texts("lines", gpio.bank.lines) && table.has("lines") &&
+      (gpio.bank.lines.empty() ||
+       gpio.bank.lines.size() > static_cast<std::size_t>(drivers::kMostLines))) {
+    table.complain("lines", std::to_string(gpio.bank.lines.size()) + " lines, expected 1 to 8");
+  }
+  const bool pulsed = gpio.bank.lines.size() == 1;
+  table.optional_switch("active_low", gpio.bank.active_low);
+  if (pulsed) {
+    table.optional_whole("frequency_hz", kGpioFrequency, gpio.frequency_hz);
+    table.optional_whole("priority", kPriority, gpio.priority);
+  } else {
+    refuse_keys(table, std::array<std::string_view, 2>{"frequency_hz", "priority"},
+                "of pulses, which a single line has");
+  }
+  refuse_keys(table, kPwmKeys, "of another kind of lamp");
+}
+
+}  // namespace
+
+void read_lamp(TableReader& table, bool camera, LampSettings& lamp) {
+  std::size_t kind = 0;
+  if (!table.word("kind", kKinds, kind) || (kind != 0 && !camera)) {
+    if (table.sound("kind")) {
+      table.complain("kind", std::string(kKinds[kind]) +
+                                 ", expected \"none\": a source that is played has its own light");
+    }
+    ignore_keys(table, kPwmKeys);
+    ignore_keys(table, kGpioKeys);
+    ignore_keys(table, kSharedKeys);
+    return;
+  }
+  lamp.kind = static_cast<LampKind>(kind);
+  if (lamp.kind == LampKind::kNone) {
+    refuse_keys(table, kPwmKeys, "of another kind of lamp");
+    refuse_keys(table, kGpioKeys, "of another kind of lamp");
+    refuse_keys(table, kSharedKeys, "of another kind of lamp");
+    return;
+  }
+  if (lamp.kind == LampKind::kPwm) {
+    read_pwm(table, lamp.pwm);
+  } else {
+    read_gpio(table, lamp.gpio);
+  }
+  read_care(table, lamp.care);
+  read_silent_link(table, lamp.silent_link);
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+#include "board/visionbox/lamp_ramp.h"
+#include "board/visionbox/silent_link.h"
+#include "drivers/gpio/gpio_dimmer.h"
+#include "drivers/pwm/pwm_dimmer.h"
+#include "drivers/settings/table_reader.h"
+
+namespace tubesight::board {
+
+/// Who dims the lamp; the order of the words of `kind`.
+enum class LampKind : std::uint8_t { kNone, kPwm, kGpio };
+
+/// The table `[lamp]`.
+struct LampSettings {
+  LampKind kind = LampKind::kNone;
+  drivers::PwmSettings pwm;
+  drivers::GpioSettings gpio;
+  LampCare care;
+  SilentLinkSettings silent_link;
+};
+
+/// Reads the table; mistakes go to the reader's problems. `camera`: the source is one; anything
+/// else has a light of its own.
+void read_lamp(drivers::TableReader& table, bool camera, LampSettings& lamp);
+
+}  // namespace tubesight::board

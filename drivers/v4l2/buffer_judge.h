@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/base/field.h"
+#include "core/base/settings.h"
+#include "drivers/v4l2/camera_report.h"
+#include "drivers/v4l2/camera_setup.h"
+#include "drivers/v4l2/picture_look.h"
+#include "drivers/v4l2/sequence_counter.h"
+#include "drivers/v4l2/stamp_judge.h"
+
+struct v4l2_buffer;
+
+namespace tubesight::drivers::v4l2 {
+
+/// Says what the fields of a buffer are, and whether they can be believed. No heap.
+class BufferJudge {
+ public:
+  /// What is found is counted in `report`, which outlives the judge.
+  explicit BufferJudge(CameraReport& report) : report_(&report) {}
+
+  /// A stream begins at `now`; numbers, sequence and time go on over it. An exposure of 0: a
+  /// field's whole time.
+  void begin(core::Scan scan, const AgreedFormat& agreed, core::FieldTime exposure,
+             core::FieldTime now);
+
+  /// A buffer that arrived at `arrival`: its first field, but for the pixels. `no_signal`: the
+  /// input says that none came in.
+  [[nodiscard]] core::Field first_field(const ::v4l2_buffer& buffer, core::FieldTime arrival,
+                                        bool no_signal);
+
+  /// The other field of that buffer.
+  [[nodiscard]] core::Field second_field() const;
+
+  /// Where a field stands in that buffer, in lines: the first one, and how many from one to the
+  /// next.
+  struct Place {
+    std::int32_t first = 0;
+    std::int32_t step = 1;
+    std::int32_t lines = 0;
+  };
+  [[nodiscard]] Place place_of(core::Parity parity) const;
+
+  /// A glance at the pixels: makes the field a damaged one where no camera made them.
+  void look_at_picture(core::Field& field);
+
+ private:
+  [[nodiscard]] core::Parity parity_of(const ::v4l2_buffer& buffer);
+  void doubt(core::Field& field, CameraTrouble trouble, std::int64_t& counter);
+  void count(const ::v4l2_buffer& buffer);
+  void judge_time(const ::v4l2_buffer& buffer, core::FieldTime arrival);
+
+  CameraReport* report_;
+  core::Scan scan_ = core::Scan::kProgressive;
+  AgreedFormat agreed_;
+  SequenceCounter sequence_{BufferKind::kFrame};
+  StampJudge stamps_;
+  core::Field first_;       ///< of the last buffer
+  bool odd_above_ = false;  ///< of the last buffer, a sequential one
+  core::Parity last_parity_ = core::Parity::kOdd;
+  std::int64_t last_number_ = -1;
+};
+
+}  // namespace tubesight::drivers::v4l2

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/base/result.h"
+#include "core/base/static_vector.h"
+#include "drivers/v4l2/kernel.h"
+
+struct v4l2_buffer;
+
+namespace tubesight::drivers::v4l2 {
+
+/// The buffers that a camera's driver and we pass to and fro. No heap after open().
+class BufferRing {
+ public:
+  /// Wanted of the driver: at 30 frames a second they bridge 200 ms in which nobody takes any.
+  static constexpr std::uint32_t kBuffers = 6;
+
+  explicit BufferRing(Kernel& kernel) : kernel_(&kernel) {}
+
+  /// Obtains, maps and queues the buffers, each of `bytes` at least, and starts the stream. After
+  /// an error the ring is closed. Errors: kIo, with `message`.
+  [[nodiscard]] core::Result<void> open(int descriptor, std::size_t bytes, std::string& message);
+
+  /// Stops the stream and gives all memory back, also where the device is gone.
+  void close();
+
+  /// Takes a filled buffer; gives 0 or -errno.
+  [[nodiscard]] int take(v4l2_buffer& buffer);
+
+  /// Gives one back to the driver. What it refuses is tried again by queue_owed().
+  void give_back(std::uint32_t index);
+
+  /// Tries again to give back what the driver refused; gives 0, or -errno of a refusal.
+  [[nodiscard]] int queue_owed();
+
+  [[nodiscard]] const std::byte* memory(std::uint32_t index) const;
+  [[nodiscard]] std::int64_t refusals() const { return refusals_; }
+
+ private:
+  /// A driver may give more than it was asked for.
+  static constexpr std::int32_t kMostBuffers = 32;
+  struct Mapped {
+    void* memory = nullptr;
+    std::size_t bytes = 0;
+    bool queued = false;
+    bool owed = false;
+  };
+
+  core::Result<void> map_all(std::uint32_t count, std::size_t bytes, std::string& message);
+  int queue(std::uint32_t index);
+
+  Kernel* kernel_;
+  int descriptor_ = -1;
+  core::StaticVector<Mapped, kMostBuffers> buffers_;
+  std::int64_t refusals_ = 0;
+};
+
+}  // namespace tubesight::drivers::v4l2

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/v4l2_settings.h"
+
+namespace tubesight::drivers::v4l2 {
+
+/// Sets controls by their names and reads each back.
+///
+/// Errors: kUnsupported there is no such control, entry or value; kIo it was refused or not kept;
+/// `message` says which, what it offers and what was wanted.
+[[nodiscard]] core::Result<void> set_controls(Kernel& kernel, int descriptor,
+                                              const std::vector<ControlSetting>& controls,
+                                              std::string& message);
+
+}  // namespace tubesight::drivers::v4l2

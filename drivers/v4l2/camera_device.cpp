@@ -1,0 +1,94 @@
+#include "drivers/v4l2/camera_device.h"
+
+#include <cstring>
+
+#include <linux/videodev2.h>
+
+#include "drivers/v4l2/camera_finder.h"
+
+namespace tubesight::drivers::v4l2 {
+namespace {
+
+using core::Error;
+using core::Result;
+using core::Unexpected;
+
+Result<void> refuse(Error error, std::string& message, const std::string& what) {
+  message = what;
+  return Unexpected(error);
+}
+
+}  // namespace
+
+Result<void> CameraDevice::open(const V4l2Settings& settings, std::string& message) {
+  const auto opened = open_all(settings, message);
+  if (!opened) {
+    close();
+    message = "camera " + settings.device + ": " + message;
+  }
+  return opened;
+}
+
+Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& message) {
+  const std::string node = find_camera(*kernel_, settings.device);
+  if (node.empty()) {
+    std::string there;
+    for (const CameraInfo& camera : list_cameras(*kernel_)) {
+      there += (there.empty() ? "" : ", ") + camera.name();
+    }
+    return refuse(Error::kDisconnected, message,
+                  "is not there, expected one of: " + (there.empty() ? "no camera is" : there));
+  }
+  descriptor_ = kernel_->open(node);
+  if (descriptor_ < 0) {
+    return refuse(Error::kIo, message,
+                  std::string("cannot be opened: ") + std::strerror(-descriptor_));
+  }
+  TUBESIGHT_TRY(check(settings, node, message));
+  agreed_ = {};
+  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
+  // A driver that knows nothing of it never says that the source has changed.
+  v4l2_event_subscription change{};
+  change.type = V4L2_EVENT_SOURCE_CHANGE;
+  change.id = agreed_.input;
+  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
+  return ring_.open(descriptor_, agreed_.bytes, message);
+}
+
+Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string& node,
+                                 std::string& message) {
+  v4l2_capability can{};
+  if (kernel_->ioctl(descriptor_, VIDIOC_QUERYCAP, &can) != 0) {
+    return refuse(Error::kUnsupported, message, "is no camera");
+  }
+  const std::uint32_t caps =
+      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
+  if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0 || (caps & V4L2_CAP_STREAMING) == 0) {
+    return refuse(Error::kUnsupported, message,
+                  "is no camera, expected one that streams pictures of one plane");
+  }
+  const std::string serial = serial_of(*kernel_, node);
+  if (!settings.serial.empty() && serial != settings.serial) {
+    return refuse(Error::kUnsupported, message,
+                  (serial.empty() ? "says no serial number" : "has the serial number " + serial) +
+                      ", expected " + settings.serial + ", the one that was calibrated");
+  }
+  return {};
+}
+
+void CameraDevice::close() {
+  if (descriptor_ >= 0) {
+    ring_.close();
+    kernel_->close(descriptor_);
+  }
+  descriptor_ = -1;
+}
+
+bool CameraDevice::without_signal() {
+  v4l2_input input{};
+  input.index = agreed_.input;
+  return agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0 &&
+         says_no_signal(input.status);
+}
+
+}  // namespace tubesight::drivers::v4l2

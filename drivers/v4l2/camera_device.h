@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/result.h"
+#include "drivers/v4l2/buffer_ring.h"
+#include "drivers/v4l2/camera_setup.h"
+#include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/v4l2_settings.h"
+
+namespace tubesight::drivers::v4l2 {
+
+/// A camera that streams: found, checked, set as wanted, its buffers with the driver.
+class CameraDevice {
+ public:
+  explicit CameraDevice(Kernel& kernel) : kernel_(&kernel), ring_(kernel) {}
+  CameraDevice(const CameraDevice&) = delete;
+  CameraDevice& operator=(const CameraDevice&) = delete;
+  ~CameraDevice() { close(); }
+
+  /// Opens the device wherever it is now, and starts the stream. After an error it is closed.
+  /// Errors: kDisconnected it is not there; kUnsupported it is no camera, another than was
+  /// calibrated, or without what is wanted; kIo it refused. `message` says it in one line.
+  [[nodiscard]] core::Result<void> open(const V4l2Settings& settings, std::string& message);
+  void close();
+
+  /// Whether the input says that no signal comes in. May take its time.
+  [[nodiscard]] bool without_signal();
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] const AgreedFormat& agreed() const { return agreed_; }
+  [[nodiscard]] BufferRing& ring() { return ring_; }
+
+ private:
+  core::Result<void> open_all(const V4l2Settings& settings, std::string& message);
+  core::Result<void> check(const V4l2Settings& settings, const std::string& node,
+                           std::string& message);
+
+  Kernel* kernel_;
+  int descriptor_ = -1;
+  AgreedFormat agreed_;
+  BufferRing ring_;
+};
+
+}  // namespace tubesight::drivers::v4l2

@@ -1,0 +1,206 @@
+#include "drivers/v4l2/camera_finder.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+#include <linux/videodev2.h>
+
+#include "drivers/v4l2/pixel_format.h"
+
+namespace tubesight::drivers::v4l2 {
+namespace {
+
+constexpr std::string_view kBus = "bus:";
+constexpr std::string_view kSerial = "serial:";
+constexpr const char* kClass = "/sys/class/video4linux";
+/// Entries of one list that a driver is asked for: one that never ends must not hold us.
+constexpr std::uint32_t kMostEntries = 64;
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+std::string parent(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+/// A descriptor as long as it is needed.
+class Opened {
+ public:
+  Opened(Kernel& kernel, const std::string& node)
+      : kernel_(&kernel), descriptor_(kernel.open(node)) {}
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() {
+    if (descriptor_ >= 0) {
+      kernel_->close(descriptor_);
+    }
+  }
+  [[nodiscard]] bool good() const { return descriptor_ >= 0; }
+  [[nodiscard]] bool ask(unsigned long request, void* argument) const {
+    return good() && kernel_->ioctl(descriptor_, request, argument) == 0;
+  }
+
+ private:
+  Kernel* kernel_;
+  int descriptor_;
+};
+
+/// Whether a node gives pictures; nodes for their descriptions beside it do not.
+bool captures(const v4l2_capability& can) {
+  const std::uint32_t caps =
+      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
+  return (caps & V4L2_CAP_VIDEO_CAPTURE) != 0;
+}
+
+std::string link_to(Kernel& kernel, const std::string& folder, const std::string& node) {
+  for (const std::string& name : kernel.list(folder)) {
+    if (kernel.real_path(folder + "/" + name) == node) {
+      return folder + "/" + name;
+    }
+  }
+  return {};
+}
+
+std::string size_words(std::uint32_t width, std::uint32_t height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void list_inputs(const Opened& camera, CameraInfo& info) {
+  for (std::uint32_t i = 0; i < kMostEntries; ++i) {
+    v4l2_input input{};
+    input.index = i;
+    if (!camera.ask(VIDIOC_ENUMINPUT, &input)) {
+      return;
+    }
+    info.inputs.push_back(text_of(input.name, sizeof input.name));
+  }
+}
+
+/// The sizes of a format: one by one, or the smallest and the largest.
+std::string sizes_of(const Opened& camera, std::uint32_t code) {
+  std::string text;
+  for (std::uint32_t i = 0; i < kMostEntries; ++i) {
+    v4l2_frmsizeenum size{};
+    size.index = i;
+    size.pixel_format = code;
+    if (!camera.ask(VIDIOC_ENUM_FRAMESIZES, &size)) {
+      break;
+    }
+    text += text.empty() ? " " : ", ";
+    if (size.type != V4L2_FRMSIZE_TYPE_DISCRETE) {
+      return text + size_words(size.stepwise.min_width, size.stepwise.min_height) + " to " +
+             size_words(size.stepwise.max_width, size.stepwise.max_height);
+    }
+    text += size_words(size.discrete.width, size.discrete.height);
+  }
+  return text;
+}
+
+void list_formats(const Opened& camera, CameraInfo& info) {
+  for (std::uint32_t i = 0; i < kMostEntries; ++i) {
+    v4l2_fmtdesc format{};
+    format.index = i;
+    format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (!camera.ask(VIDIOC_ENUM_FMT, &format)) {
+      return;
+    }
+    std::string name = code_text(format.pixelformat).data();
+    bool ours = false;
+    for (const PixelFormat& known : pixel_formats()) {
+      if (known.code == format.pixelformat) {
+        name = known.name;
+        ours = true;
+      }
+    }
+    info.formats.push_back(name + sizes_of(camera, format.pixelformat) +
+                           (ours ? "" : " (not taken)"));
+  }
+}
+
+}  // namespace
+
+std::string text_of(const unsigned char* letters, std::size_t length) {
+  std::string text;
+  for (std::size_t i = 0; i < length && letters[i] != 0; ++i) {
+    if (letters[i] >= 0x20 && letters[i] < 0x7f) {
+      text += static_cast<char>(letters[i]);
+    }
+  }
+  return text;
+}
+
+// Of what keeps a place it says where the camera is plugged in; by-id, which camera it is. Neither
+// says it of two cameras of a maker who gives them no numbers: the place does.
+std::string CameraInfo::name() const {
+  if (!serial.empty()) {
+    return "serial:" + serial;
+  }
+  if (!by_path.empty()) {
+    return by_path;
+  }
+  if (!by_id.empty()) {
+    return by_id;
+  }
+  return bus.empty() ? node : "bus:" + bus;
+}
+
+std::string serial_of(Kernel& kernel, const std::string& node) {
+  // From the interface up to the device, on USB; others have it at once or nowhere. One level
+  // further up there is a hub, which has a number of its own.
+  constexpr int kLevels = 2;
+  std::string device = kernel.real_path(std::string(kClass) + "/" + file_name(node) + "/device");
+  for (int level = 0; level < kLevels && !device.empty(); ++level) {
+    const std::string serial = kernel.first_line(device + "/serial");
+    if (!serial.empty()) {
+      return serial;
+    }
+    device = parent(device);
+  }
+  return {};
+}
+
+std::vector<CameraInfo> list_cameras(Kernel& kernel) {
+  std::vector<CameraInfo> cameras;
+  for (const std::string& name : kernel.list(kClass)) {
+    CameraInfo info;
+    info.node = "/dev/" + name;
+    const Opened camera(kernel, info.node);
+    v4l2_capability can{};
+    info.busy = !camera.good();
+    if (camera.good() && (!camera.ask(VIDIOC_QUERYCAP, &can) || !captures(can))) {
+      continue;
+    }
+    info.bus = text_of(can.bus_info, sizeof can.bus_info);
+    info.card = text_of(can.card, sizeof can.card);
+    info.driver = text_of(can.driver, sizeof can.driver);
+    info.serial = serial_of(kernel, info.node);
+    info.by_id = link_to(kernel, "/dev/v4l/by-id", info.node);
+    info.by_path = link_to(kernel, "/dev/v4l/by-path", info.node);
+    list_inputs(camera, info);
+    list_formats(camera, info);
+    cameras.push_back(info);
+  }
+  return cameras;
+}
+
+std::string find_camera(Kernel& kernel, const std::string& device) {
+  if (device.starts_with('/')) {
+    return kernel.real_path(device);
+  }
+  const bool by_bus = device.starts_with(kBus);
+  const std::string wanted = device.substr(by_bus ? kBus.size() : kSerial.size());
+  for (const std::string& name : kernel.list(kClass)) {
+    const std::string node = "/dev/" + name;
+    if (!by_bus && serial_of(kernel, node) != wanted) {
+      continue;
+    }
+    const Opened camera(kernel, node);
+    v4l2_capability can{};
+    if (!camera.ask(VIDIOC_QUERYCAP, &can) || !captures(can)) {
+      continue;
+    }
+    if (!by_bus || text_of(can.bus_info, sizeof can.bus_info) == wanted) {
+      return node;
+    }
+  }
+  return {};
+}
+
+}  // namespace tubesight::drivers::v4l2

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/v4l2/kernel.h"
+
+namespace tubesight::drivers::v4l2 {
+
+/// A camera as the system knows it; what is not known is empty.
+struct CameraInfo {
+  std::string node;     ///< "/dev/video0": another one after the next start
+  std::string by_id;    ///< a path below /dev/v4l/by-id that leads to it
+  std::string by_path;  ///< the same below /dev/v4l/by-path
+  std::string bus;      ///< "usb-0000:00:14.0-1", as the driver says
+  std::string serial;
+  std::string card;  ///< what the driver calls it
+  std::string driver;
+  bool busy = false;  ///< it could not be opened: nothing but its name is known
+  std::vector<std::string> inputs;
+  std::vector<std::string> formats;  ///< "GREY 640 x 480"; those of the input chosen
+
+  /// How settings should name it.
+  [[nodiscard]] std::string name() const;
+};
+
+/// The cameras of the machine, with what they offer. Opens each, and changes nothing.
+[[nodiscard]] std::vector<CameraInfo> list_cameras(Kernel& kernel);
+
+/// The node of the device that settings name: below /dev, "bus:" or "serial:". Empty when it is not
+/// there.
+[[nodiscard]] std::string find_camera(Kernel& kernel, const std::string& device);
+
+/// The serial number of the device behind a node; empty when it has none.
+[[nodiscard]] std::string serial_of(Kernel& kernel, const std::string& node);
+
+/// What a driver says in a field of fixed length, printable ASCII alone.
+[[nodiscard]] std::string text_of(const unsigned char* letters, std::size_t length);
+
+}  // namespace tubesight::drivers::v4l2

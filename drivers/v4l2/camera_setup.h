@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "core/base/field.h"
+#include "core/base/result.h"
+#include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/pixel_format.h"
+#include "drivers/v4l2/sequence_counter.h"
+#include "drivers/v4l2/v4l2_settings.h"
+
+namespace tubesight::drivers::v4l2 {
+
+/// What was agreed with a driver, read back from it.
+struct AgreedFormat {
+  PixelFormat pixel;
+  BufferKind kind = BufferKind::kFrame;
+  bool sequential = false;  ///< the fields of a pair stand one below the other
+  bool odd_above = false;   ///< of those, that of odd lines first
+  std::int32_t lines = 0;   ///< in a buffer
+  std::int32_t stride_bytes = 0;
+  std::size_t bytes = 0;      ///< that the grey values of a buffer reach to
+  core::FieldTime span{0};    ///< from one field to the next
+  std::uint32_t input = 0;    ///< index of the one chosen
+  bool input_status = false;  ///< there is an input that can be asked
+};
+
+/// Sets an open camera as the settings want it and reads back what became of it: input, standard,
+/// format, rate, controls. Opens no buffers.
+///
+/// Errors: kUnsupported it does not have what is wanted, kIo it refused; `message` says which, what
+/// it offers and what was wanted.
+[[nodiscard]] core::Result<void> set_up(Kernel& kernel, int descriptor,
+                                        const V4l2Settings& settings, AgreedFormat& agreed,
+                                        std::string& message);
+
+/// Whether a status of VIDIOC_ENUMINPUT says that no signal comes in.
+[[nodiscard]] bool says_no_signal(std::uint32_t status);
+
+}  // namespace tubesight::drivers::v4l2

@@ -1,0 +1,82 @@
+#include "tests/drivers/v4l2/fake_camera.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace tubesight::tests {
+
+std::uint32_t bytes_a_pixel(std::uint32_t format) {
+  return format == V4L2_PIX_FMT_GREY || format == V4L2_PIX_FMT_NV12 ? 1 : 2;
+}
+
+int query_control(const FakeCamera& camera, v4l2_queryctrl& query) {
+  // Numbered from 1 in the order of the list.
+  const std::uint32_t last = query.id & ~V4L2_CTRL_FLAG_NEXT_CTRL;
+  if (last >= camera.controls.size()) {
+    return -EINVAL;
+  }
+  const FakeCamera::Control& control = camera.controls[last];
+  query = {};
+  query.id = last + 1;
+  query.type = control.type;
+  query.minimum = control.least;
+  query.maximum = control.most;
+  std::memcpy(query.name, control.name.data(),
+              std::min(sizeof query.name - 1, control.name.size()));
+  return 0;
+}
+
+int query_menu(const FakeCamera& camera, v4l2_querymenu& menu) {
+  const FakeCamera::Control& control = camera.controls[menu.id - 1];
+  if (menu.index >= control.entries.size() || control.entries[menu.index].empty()) {
+    return -EINVAL;
+  }
+  std::memset(menu.name, 0, sizeof menu.name);
+  std::memcpy(menu.name, control.entries[menu.index].data(),
+              std::min(sizeof menu.name - 1, control.entries[menu.index].size()));
+  return 0;
+}
+
+int serve_control(FakeCamera& camera, bool set, v4l2_control& asked) {
+  FakeCamera::Control& control = camera.controls[asked.id - 1];
+  if (set && control.keeps) {
+    control.value = asked.value;
+  }
+  asked.value = control.value;
+  return 0;
+}
+
+/// A field a buffer, or all lines: as the format says.
+void draw_picture(const v4l2_pix_format& pix, const v4l2_buffer& told,
+                  std::span<std::byte> memory) {
+  for (std::uint32_t line = 0; line < pix.height; ++line) {
+    std::uint32_t v = line;
+    if (pix.field == V4L2_FIELD_ALTERNATE) {
+      v = 2 * line + (told.field == V4L2_FIELD_BOTTOM ? 1 : 0);
+    } else if (V4L2_FIELD_IS_SEQUENTIAL(pix.field)) {
+      const std::uint32_t half = pix.height / 2;
+      const bool below = line >= half;
+      v = 2 * (line % half) + (below == (told.field == V4L2_FIELD_SEQ_TB) ? 1 : 0);
+    }
+    for (std::uint32_t u = 0; u < pix.width; ++u) {
+      const std::uint32_t grey =
+          drawn_grey(static_cast<std::int32_t>(u), static_cast<std::int32_t>(v));
+      const std::size_t at = line * pix.bytesperline + u * bytes_a_pixel(pix.pixelformat);
+      const auto set = [&](std::size_t place, std::uint32_t value) {
+        if (place < memory.size()) {
+          memory[place] = static_cast<std::byte>(value);
+        }
+      };
+      switch (pix.pixelformat) {
+        case V4L2_PIX_FMT_UYVY: set(at, 128), set(at + 1, grey); break;
+        case V4L2_PIX_FMT_YUYV: set(at, grey), set(at + 1, 128); break;
+        case V4L2_PIX_FMT_Y10: set(at, grey << 2 | 3), set(at + 1, grey >> 6); break;
+        case V4L2_PIX_FMT_Y16: set(at, 255), set(at + 1, grey); break;
+        default: set(at, grey); break;
+      }
+    }
+  }
+}
+
+}  // namespace tubesight::tests

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <linux/videodev2.h>
+
+#include "core/base/field.h"
+
+namespace tubesight::tests {
+
+/// A camera of the fake kernel: what it has, and what it does wrong. All may be changed at any
+/// time.
+struct FakeCamera {
+  struct Input {
+    std::string name;
+    std::uint32_t status = 0;
+  };
+  struct Control {
+    std::string name;
+    std::uint32_t type = V4L2_CTRL_TYPE_INTEGER;
+    std::int32_t least = 0;
+    std::int32_t most = 100;
+    std::vector<std::string> entries;
+    std::int32_t value = 0;
+    bool keeps = true;
+  };
+
+  std::uint32_t caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+  std::string bus = "usb-0000:00:14.0-1";
+  std::string serial;
+  std::string card = "Grabber";
+  std::vector<Input> inputs{{"S-Video", 0}};
+  v4l2_std_id standard = 0;
+  std::vector<std::uint32_t> formats{V4L2_PIX_FMT_GREY};
+  std::vector<std::uint32_t> fields{V4L2_FIELD_NONE};  ///< others are answered with the first
+  std::uint32_t widths_of = 1;      ///< a width is rounded up to a multiple of it
+  std::uint32_t padding_bytes = 0;  ///< at the end of a line
+  std::uint32_t missing_bytes = 0;  ///< of a buffer's memory
+  v4l2_fract frame_time{1, 30};     ///< 0: it does not say
+  bool changes_rate = false;
+  std::uint32_t most_buffers = 32;
+  std::vector<Control> controls;
+
+  /// Time from one buffer to the next; 0: none ever comes.
+  core::FieldTime every{33'333'333};
+  std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+  /// What a driver says and a picture shows may be changed here before a buffer is taken; `number`
+  /// counts the buffers of all streams from 0.
+  std::function<void(std::int64_t number, v4l2_buffer& buffer, std::span<std::byte> memory)> tamper;
+  /// Results of the next calls of a request, in their order: 0 is done as usual, else -errno.
+  std::map<unsigned long, std::deque<int>> results;
+  std::deque<int> poll_results;   ///< of the next calls, as poll()'s
+  std::deque<v4l2_event> events;  ///< pending
+};
+
+/// The grey value that a fake camera draws: lines and columns can be told apart, and neighbours are
+/// alike.
+[[nodiscard]] constexpr std::uint8_t drawn_grey(std::int32_t u, std::int32_t v) {
+  return static_cast<std::uint8_t>(40 + (u + 7 * v) % 160);
+}
+
+/// Draws what a camera of this format sees, as `told` says which lines.
+void draw_picture(const v4l2_pix_format& format, const v4l2_buffer& told,
+                  std::span<std::byte> memory);
+
+/// Bytes from one grey value of a format to the next.
+[[nodiscard]] std::uint32_t bytes_a_pixel(std::uint32_t format);
+
+/// The answers to a control's requests; 0 or -errno. Controls are numbered from 1.
+int query_control(const FakeCamera& camera, v4l2_queryctrl& query);
+int query_menu(const FakeCamera& camera, v4l2_querymenu& menu);
+int serve_control(FakeCamera& camera, bool set, v4l2_control& asked);
+
+}  // namespace tubesight::tests

@@ -1,0 +1,32 @@
+#include <gtest/gtest.h>
+
+#include "tests/drivers/v4l2/camera_bench.h"
+#include "tests/support/heap_guard.h"
+
+namespace tubesight::tests {
+namespace {
+
+TEST(V4l2Heap, FieldsAllocateNothing) {
+  CameraBench bench(settings_of(core::Scan::kEvenFirst));
+  bench.camera().fields = {V4L2_FIELD_INTERLACED};
+  bench.camera().formats = {V4L2_PIX_FMT_YUYV};
+  ASSERT_TRUE(bench.grabber().start());
+  ASSERT_TRUE(bench.good_within(2));  // the fake kernel has met every request by then
+  ASSERT_TRUE(bench.good_within(2));
+  ASSERT_TRUE(bench.good_within(2));
+  int good = 0;
+  HeapCalls calls;
+  {
+    const HeapGuard guard;
+    for (int i = 0; i < 40; ++i) {
+      good += bench.next_status() == core::FieldStatus::kGood ? 1 : 0;
+    }
+    calls = guard.calls();
+  }
+
+  EXPECT_EQ(good, 40);
+  EXPECT_EQ(calls.allocations, 0);
+}
+
+}  // namespace
+}  // namespace tubesight::tests
