@@ -72,6 +72,31 @@ MeasurementBounds bounds_of(const TrackingModel<S>& model) {
   return bounds;
 }
 
+// A site whose rim lies in the window, and is large enough to be measured.
+template <Scalar S>
+struct SiteInView {
+  RimOutline<S> rim;
+  Box box;
+};
+
+template <Scalar S>
+std::optional<SiteInView<S>> in_view(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                     const RimSpokes<S>& spokes, const Candidate<S>& site) {
+  const Vector3<Mm<S>> center = pose.origin + pose.along(site.local);
+  if (cut_by_window<S>(model, site.center_px, center.z)) {
+    return std::nullopt;
+  }
+  const auto rim = project_rim<S>(model, center, spokes);
+  if (!rim) {
+    return std::nullopt;
+  }
+  const Box box = box_of<S>(*rim);
+  if (box.half_v < kLeastHalfHeightPx) {
+    return std::nullopt;
+  }
+  return SiteInView<S>{*rim, box};
+}
+
 // What a tube-end that was not measured says about a plug.
 template <Scalar S>
 void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
@@ -106,29 +131,22 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     if (candidate.state != TubeState::kOpen) {
       continue;
     }
-    const Vector3<Mm<S>> center = pose.origin + pose.along(candidate.local);
-    if (cut_by_window<S>(model, candidate.center_px, center.z)) {
+    const auto seen = in_view<S>(model, pose, spokes, candidate);
+    if (!seen) {
       continue;
     }
-    const auto rim = project_rim<S>(model, center, spokes);
-    if (!rim) {
-      continue;
-    }
-    const Box box = box_of<S>(*rim);
-    if (box.half_v < kLeastHalfHeightPx) {
-      continue;
-    }
+    const auto& [rim, box] = *seen;
     ++count.looked_at;
     TubeMeasurement<S> tube;
     tube.address = candidate.address;
     tube.local = candidate.local;
-    tube.predicted_px = rim->center;
+    tube.predicted_px = rim.center;
     const std::int32_t inside =
         edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2);
     Finding finding = Finding::kBright;
     if (inside <= light.region_threshold) {
       bounds.range_px = std::min(look.range_px, std::max(3, box.half_u / 2));
-      finding = measure_tube<S>(field, *rim, bounds, light.edge_threshold, tube);
+      finding = measure_tube<S>(field, rim, bounds, light.edge_threshold, tube);
     }
     if (finding == Finding::kMeasured) {
       ++count.measured;
@@ -145,7 +163,7 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       static_cast<void>(record.sites.bright.try_push_back(candidate.address));
     }
     count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
-    note_plug<S>(field, candidate.address, rim->center, box, look.range_px, finding, record);
+    note_plug<S>(field, candidate.address, rim.center, box, look.range_px, finding, record);
   }
   return count;
 }
@@ -159,18 +177,11 @@ void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const 
   const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
   const MeasurementBounds bounds = bounds_of<S>(model);
   for (const Candidate<S>& site : closed) {
-    const Vector3<Mm<S>> center = pose.origin + pose.along(site.local);
-    if (cut_by_window<S>(model, site.center_px, center.z)) {
+    const auto seen = in_view<S>(model, pose, spokes, site);
+    if (!seen) {
       continue;
     }
-    const auto rim = project_rim<S>(model, center, spokes);
-    if (!rim) {
-      continue;
-    }
-    const Box box = box_of<S>(*rim);
-    if (box.half_v < kLeastHalfHeightPx) {
-      continue;
-    }
+    const auto& [rim, box] = *seen;
     if (edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2) >
         light.region_threshold) {
       static_cast<void>(sites.closed.try_push_back(site.address));
@@ -178,8 +189,8 @@ void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const 
     }
     edges::DynamicThreshold threshold = light.edge_threshold;
     TubeMeasurement<S> tube;
-    tube.predicted_px = rim->center;
-    if (measure_tube<S>(field, *rim, bounds, threshold, tube) == Finding::kMeasured) {
+    tube.predicted_px = rim.center;
+    if (measure_tube<S>(field, rim, bounds, threshold, tube) == Finding::kMeasured) {
       static_cast<void>(sites.open.try_push_back(site.address));
     }
   }

@@ -45,6 +45,12 @@ struct LightLevels {
   }
 };
 
+/// Those that a start begins with.
+template <Scalar S>
+[[nodiscard]] LightLevels first_light(const TrackingModel<S>& model) {
+  return {model.region_threshold, edges::DynamicThreshold(model.initial_threshold)};
+}
+
 /// A place of a recognised plug in this field.
 template <Scalar S>
 struct PlugSighting {

@@ -40,10 +40,7 @@ bool LastPlace<S>::refutes(const TrackingModel<S>& model, const tubesheet::Sheet
   if (!known_ || field.status != FieldStatus::kGood) {
     return false;
   }
-  // With the thresholds that a start begins with, so that a track's are left alone.
-  LightLevels light;
-  light.edge_threshold = edges::DynamicThreshold(model.initial_threshold);
-  light.region_threshold = model.region_threshold;
+  LightLevels light = first_light<S>(model);  // a track's is left alone
   SheetPose<S> pose;
   if (find_start_pose<S>(model, map, field.pixels, clicks, light, pose) != StartRefusal::kNone) {
     return false;

@@ -34,8 +34,7 @@ PosePrior<S> prior_of(const Expectation<S>& expected) {
 template <Scalar S>
 void SheetObserver<S>::begin() {
   record_.plugs.clear();
-  record_.light.edge_threshold = edges::DynamicThreshold(model_->initial_threshold);
-  record_.light.region_threshold = model_->region_threshold;
+  record_.light = first_light<S>(*model_);
 }
 
 template <Scalar S>
