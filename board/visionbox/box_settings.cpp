@@ -25,7 +25,7 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 5> kBoxTables = {"source", "control", "realtime",
+constexpr std::array<std::string_view, 6> kBoxTables = {"source", "control", "realtime",
                                                         "link",   "record",  "lamp"};
 constexpr std::array<std::string_view, 3> kSourceKinds = {"replay", "simulated", "v4l2"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
