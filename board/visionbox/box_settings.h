@@ -31,6 +31,7 @@ struct SourceSettings {
   std::string scenario;        ///< of a simulation
   bool loop = true;            ///< begin anew at the end
   bool script = false;         ///< play the robot and the operator that are written down, too
+  bool in_real_time = true;    ///< of what is played; not in the file, for tests
   drivers::V4l2Settings v4l2;  ///< of a camera, with what the session says of it
 };
 

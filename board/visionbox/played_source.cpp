@@ -22,6 +22,8 @@ constexpr core::FieldTime kUsualSpan{16'666'667};
 constexpr core::FieldTime kGap = std::chrono::seconds(1);
 /// How soon the source's thread sees that it is to stop.
 constexpr milliseconds kPatience{100};
+/// In which a field is made, where time stands still for it.
+constexpr MonotonicTime kLongestMaking = std::chrono::seconds(10);
 
 }  // namespace
 
@@ -209,7 +211,9 @@ Result<hal::FieldLease> PlayedSource::grab_for(milliseconds timeout) {
   if (!started_ || lent_) {
     return Unexpected(Error::kNotReady);
   }
-  const MonotonicTime latest = monotonic_now() + timeout;
+  const MonotonicTime asked = monotonic_now();
+  const MonotonicTime latest = asked + timeout;
+  const MonotonicTime made_by = settings_.in_real_time ? latest : asked + kLongestMaking;
   while (!held_) {
     // In this order: what was filled before the source ended is still taken.
     const SourceState state = state_;
@@ -218,11 +222,15 @@ Result<hal::FieldLease> PlayedSource::grab_for(milliseconds timeout) {
       held_ = index;
     } else if (state == SourceState::kEnded || state == SourceState::kFailed) {
       return Unexpected(Error::kDisconnected);
-    } else if (!slot_filled_.wait_until(latest)) {
+    } else if (!slot_filled_.wait_until(made_by)) {
       return Unexpected(Error::kTimeout);
     }
   }
   const Slot& slot = slots_[*held_];
+  if (!settings_.in_real_time) {
+    clock_.set(slot.field.mid_exposure,
+               std::max(monotonic_now(), clock_.monotonic(slot.field.mid_exposure)));
+  }
   due_ = clock_.monotonic(slot.field.mid_exposure);
   if (due_ > latest) {
     sleep_until(latest);

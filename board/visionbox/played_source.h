@@ -25,7 +25,8 @@ namespace tubesight::board {
 
 /// How a source is played.
 struct PlayedSourceSettings {
-  bool loop = true;  ///< begin anew at the end
+  bool loop = true;          ///< begin anew at the end
+  bool in_real_time = true;  ///< else time stands still while a field is late: none is ever missing
   std::int32_t width_px = 0;
   std::int32_t height_px = 0;
   std::chrono::milliseconds first_wait{500};  ///< before a source that failed is opened again

@@ -20,6 +20,7 @@ PlayedSourceSettings source_settings(const BoxSettings& settings) {
   const core::CameraSettings& camera = settings.told().camera;
   PlayedSourceSettings source;
   source.loop = settings.source.loop;
+  source.in_real_time = settings.source.in_real_time;
   source.width_px = camera.width_px;
   source.height_px = camera.height_px;
   return source;

@@ -25,7 +25,8 @@ class SourceClock final : public hal::Clock {
 
   [[nodiscard]] bool running() const { return zero_.load(std::memory_order_acquire) != kUnset; }
 
-  /// `instant` of the source is `at`. Once, before anybody can have read more than zero.
+  /// `instant` of the source is `at`. Once, before anybody can have read more than zero; again only
+  /// by a source for which time stood still.
   void set(core::FieldTime instant, MonotonicTime at) {
     zero_.store((at - instant).count(), std::memory_order_release);
   }

@@ -77,6 +77,7 @@ class PlayedSourceTest : public ::testing::Test {
     settings.width_px = kSide;
     settings.height_px = kSide;
     settings.first_wait = milliseconds(20);
+    settings.in_real_time = in_real_time_;
     source_ = std::make_unique<PlayedSource>(player_, settings, [this](const std::string& line) {
       const std::lock_guard lock(mutex_);
       told_.push_back(line);
@@ -101,6 +102,7 @@ class PlayedSourceTest : public ::testing::Test {
   }
 
   FakePlayer player_;
+  bool in_real_time_ = true;
   std::mutex mutex_;
   std::vector<std::string> told_;
   std::unique_ptr<PlayedSource> source_;
@@ -172,6 +174,21 @@ TEST_F(PlayedSourceTest, CountsTheFieldsThatItMadeTooLate) {
 
   EXPECT_GE(source.made_late() - before, 1);
   EXPECT_LT(before, 28) << "not all of them";
+}
+
+TEST_F(PlayedSourceTest, OutOfRealTimeTimeStandsStillForALateField) {
+  in_real_time_ = false;
+  player_.slow_ = 3;
+  PlayedSource& source = make(false);
+  ASSERT_TRUE(source.start());
+  const MonotonicTime begin = monotonic_now();
+  for (int i = 0; i < 5; ++i) {
+    const auto lease = source.grab_for(kSpan * 2);
+    ASSERT_TRUE(lease) << i << " timed out";
+    EXPECT_EQ(lease->field().sequence, 100 + i);
+    EXPECT_LT(source.clock().now(), lease->field().mid_exposure + 6 * kSpan);
+  }
+  EXPECT_GE(monotonic_now() - begin, 8 * kSpan);
 }
 
 TEST_F(PlayedSourceTest, OpensAgainWhatFailedAndCountsIt) {
