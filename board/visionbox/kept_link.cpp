@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "board/visionbox/panic_dimmer.h"
+#include "board/visionbox/real_time.h"
 
 namespace tubesight::board {
 namespace {
@@ -25,11 +26,18 @@ std::string name_of(const drivers::ModbusSettings& settings) {
   return name;
 }
 
+void begin_before_others() {
+  use_signal_stack();
+  // Who may not, may not have the tracking thread in real time either, and that is told.
+  static_cast<void>(schedule_before_others());
+}
+
 }  // namespace
 
 KeptLink::KeptLink(const drivers::ModbusSettings& settings, const drivers::LinkIdentity& identity,
-                   const hal::Clock& clock, Tell tell)
-    : link_(settings, identity, clock, use_signal_stack),
+                   const hal::Clock& clock, Rank rank, Tell tell)
+    : link_(settings, identity, clock,
+            rank == Rank::kBeforeOthers ? begin_before_others : use_signal_stack),
       where_(name_of(settings)),
       tell_(std::move(tell)) {}
 

@@ -29,9 +29,13 @@ class KeptLink final : public hal::RobotLink {
  public:
   using Tell = std::function<void(const std::string&)>;
 
-  /// `clock` as ModbusRobotLink's; `tell` takes lines for a person.
+  /// Whom the link's thread waits for when processors are short.
+  enum class Rank : std::uint8_t { kLikeOthers, kBeforeOthers };
+
+  /// `clock` as ModbusRobotLink's; `tell` takes lines for a person. kBeforeOthers is asked of the
+  /// system and done without where it refuses.
   KeptLink(const drivers::ModbusSettings& settings, const drivers::LinkIdentity& identity,
-           const hal::Clock& clock, Tell tell);
+           const hal::Clock& clock, Rank rank, Tell tell);
 
   /// Tries to open it. Errors: kNotReady started already.
   [[nodiscard]] core::Result<void> start() override;

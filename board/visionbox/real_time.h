@@ -18,6 +18,11 @@ struct RealTimeSettings {
 /// Gives the calling thread SCHED_FIFO with this priority. Empty when it is done, else why not.
 [[nodiscard]] std::string schedule_in_real_time(std::int32_t priority);
 
+/// Lets the calling thread run before all others of ordinary priority (nice -15), but not in real
+/// time: whoever keeps it busy slows the others down and starves none. Empty when it is done, else
+/// why not.
+[[nodiscard]] std::string schedule_before_others();
+
 /// Touches the stack that the calling thread will need, so that no page of it is missing later.
 void touch_stack();
 

@@ -27,8 +27,11 @@ std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Cloc
   if (settings.link.kind == LinkKind::kNone) {
     return nullptr;
   }
+  // A claim is stamped when this thread sees it: late on a busy machine without a rank.
+  const KeptLink::Rank rank =
+      settings.real_time.priority > 0 ? KeptLink::Rank::kBeforeOthers : KeptLink::Rank::kLikeOthers;
   return std::make_unique<KeptLink>(settings.link.modbus, link_identity(settings.told()), clock,
-                                    tell);
+                                    rank, tell);
 }
 
 /// Null: nothing is recorded.

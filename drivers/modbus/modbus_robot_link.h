@@ -20,8 +20,8 @@ namespace tubesight::drivers {
 ///
 /// A thread of its own answers the masters within milliseconds, from the latest of what the loop
 /// has said; the loop never waits for a line. That thread has the ordinary priority, whatever the
-/// priority of who starts it. Between start() and stop() nothing is allocated but where a line is
-/// opened again.
+/// priority of who starts it, unless `at_thread_start` gives it another. Between start() and stop()
+/// nothing is allocated but where a line is opened again.
 // Final, and the port has no virtual destructor. NOLINTNEXTLINE(*-virtual-class-destructor)
 class ModbusRobotLink final : public hal::RobotLink {
  public:

@@ -45,7 +45,7 @@ class KeptLinkTest : public ::testing::Test {
   tests::Pty line_;
   tests::SteadyClock clock_;
   std::vector<std::string> told_;
-  KeptLink link_{settings(), tests::make_identity(), clock_,
+  KeptLink link_{settings(), tests::make_identity(), clock_, KeptLink::Rank::kLikeOthers,
                  [this](const std::string& line) { told_.push_back(line); }};
 };
 
