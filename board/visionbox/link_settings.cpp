@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -34,12 +36,25 @@ constexpr drivers::WholeRange kUnit{1, 247};
 constexpr drivers::WholeRange kPort{1, 65535};
 constexpr std::size_t kLongestDevice = 255;
 
+/// What stands there and can never be a line, in words; nothing where nothing is: a line that is
+/// not plugged in yet, or settings for another machine.
+std::string no_line_at(const std::string& path) {
+  std::error_code unknown;
+  switch (std::filesystem::status(path, unknown).type()) {
+    case std::filesystem::file_type::directory: return "a folder";
+    case std::filesystem::file_type::regular: return "a file";
+    default: return {};
+  }
+}
+
 void read_line(TableReader& table, drivers::SerialSettings& line) {
   std::size_t parity = static_cast<std::size_t>(line.parity);
   if (table.text("device", line.device) &&
       (line.device.empty() || line.device.size() > kLongestDevice || line.device[0] != '/')) {
     table.complain("device",
                    "'" + line.device + "', expected a path from the root of up to 255 bytes");
+  } else if (const std::string what = no_line_at(line.device); !what.empty()) {
+    table.complain("device", "'" + line.device + "' is " + what + ", expected a serial line");
   }
   if (table.optional_whole("baud", kBaud, line.baud) &&
       std::ranges::find(kBauds, line.baud) == kBauds.end()) {

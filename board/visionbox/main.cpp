@@ -19,6 +19,7 @@
 #include "board/visionbox/lamp_device.h"
 #include "board/visionbox/log.h"
 #include "board/visionbox/panic_dimmer.h"
+#include "board/visionbox/record_settings.h"
 #include "board/visionbox/vision_box.h"
 #include "drivers/control/control_server.h"
 
@@ -69,6 +70,10 @@ int run(const BoxSettings& settings) {
   const EndSignals signals;
   Log log;
   const auto tell = [&log](const std::string& line) { log.say(line); };
+  if (const std::string why = too_much_memory(settings.record, machine_memory_mb()); !why.empty()) {
+    log.say(why);
+    return kWrongInput;
+  }
   const auto box = std::make_unique<VisionBox>(settings, tell);
   BoxWatch watch(tell);
   const auto report = [&] {

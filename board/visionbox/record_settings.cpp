@@ -5,6 +5,8 @@
 #include <string_view>
 #include <system_error>
 
+#include <unistd.h>
+
 #include "board/visionbox/settings_path.h"
 #include "core/base/scalar.h"
 #include "core/session/session.h"
@@ -69,6 +71,22 @@ std::string wrong_memory(const RecordSettings& record, const core::CameraSetting
   }
   return "record.memory_mb: " + memory_mb + ", expected at least " +
          std::to_string(without.memory_mb) + " for pictures of this size";
+}
+
+std::string too_much_memory(const RecordSettings& record, std::int64_t machine_mb) {
+  const std::int64_t wanted = record.recorder.memory_mb;
+  if (!record.wanted() || machine_mb <= 0 || wanted <= machine_mb / 2) {
+    return {};
+  }
+  return "record.memory_mb: " + std::to_string(wanted) + ", expected at most " +
+         std::to_string(machine_mb / 2) + ", half of this machine's memory";
+}
+
+std::int64_t machine_memory_mb() {
+  constexpr std::int64_t kMb = 1024 * 1024;
+  const std::int64_t pages = sysconf(_SC_PHYS_PAGES);
+  const std::int64_t page = sysconf(_SC_PAGESIZE);
+  return pages > 0 && page > 0 ? pages * page / kMb : 0;
 }
 
 }  // namespace tubesight::board

@@ -28,4 +28,11 @@ void read_record(const drivers::SettingsDocument& document, drivers::TableReader
 [[nodiscard]] std::string wrong_memory(const RecordSettings& record,
                                        const core::CameraSettings& camera);
 
+/// What is wrong with it on a machine with so much memory: the recorder would take more than half.
+/// Apart from the above, as settings are also checked on other machines than the box's.
+[[nodiscard]] std::string too_much_memory(const RecordSettings& record, std::int64_t machine_mb);
+
+/// Of this machine; 0: not known.
+[[nodiscard]] std::int64_t machine_memory_mb();
+
 }  // namespace tubesight::board

@@ -299,6 +299,28 @@ TEST_F(BoxSettingsTest, EveryKeyOfALinkIsRead) {
   EXPECT_EQ(modbus.tcp_port, 502);
 }
 
+TEST_F(BoxSettingsTest, ALinesDeviceMayBeMissingButNotAFolderOrAFile) {
+  const std::string link = std::string(kSource) + "[link]\nkind = \"modbus\"\ndevice = ";
+  EXPECT_FALSE(load(link + "\"/dev\"\n"));
+  EXPECT_TRUE(told("box.toml:7: link.device: '/dev' is a folder, expected a serial line"));
+  EXPECT_FALSE(load(link + "\"/proc/version\"\n"));
+  EXPECT_TRUE(told("link.device: '/proc/version' is a file, expected a serial line"));
+  EXPECT_TRUE(load(link + "\"/dev/null\"\n")) << "whether it is one, opening tells";
+  EXPECT_TRUE(load(link + "\"/dev/serial/by-id/not-yet\"\n"));
+}
+
+TEST(TooMuchMemory, IsMoreThanHalfOfTheMachines) {
+  RecordSettings record;
+  record.recorder.memory_mb = 513;
+  EXPECT_EQ(too_much_memory(record, 1024), "") << "nothing is recorded";
+  record.folder = "/var";
+  EXPECT_EQ(too_much_memory(record, 1024),
+            "record.memory_mb: 513, expected at most 512, half of this machine's memory");
+  EXPECT_EQ(too_much_memory(record, 1026), "");
+  EXPECT_EQ(too_much_memory(record, 0), "") << "not known";
+  EXPECT_GT(machine_memory_mb(), 64);
+}
+
 TEST_F(BoxSettingsTest, EveryMistakeOfALinkIsTold) {
   EXPECT_FALSE(load(std::string(kSource) +
                     "[link]\nkind = \"modbus\"\ndevice = \"ttyUSB0\"\nbaud = 19201\n"
