@@ -309,18 +309,6 @@ TEST_F(BoxSettingsTest, ALinesDeviceMayBeMissingButNotAFolderOrAFile) {
   EXPECT_TRUE(load(link + "\"/dev/serial/by-id/not-yet\"\n"));
 }
 
-TEST(TooMuchMemory, IsMoreThanHalfOfTheMachines) {
-  RecordSettings record;
-  record.recorder.memory_mb = 513;
-  EXPECT_EQ(too_much_memory(record, 1024), "") << "nothing is recorded";
-  record.folder = "/var";
-  EXPECT_EQ(too_much_memory(record, 1024),
-            "record.memory_mb: 513, expected at most 512, half of this machine's memory");
-  EXPECT_EQ(too_much_memory(record, 1026), "");
-  EXPECT_EQ(too_much_memory(record, 0), "") << "not known";
-  EXPECT_GT(machine_memory_mb(), 64);
-}
-
 TEST_F(BoxSettingsTest, EveryMistakeOfALinkIsTold) {
   EXPECT_FALSE(load(std::string(kSource) +
                     "[link]\nkind = \"modbus\"\ndevice = \"ttyUSB0\"\nbaud = 19201\n"

@@ -200,5 +200,17 @@ TEST_F(WriterTest, WhatWasHandedOverIsWrittenBeforeItEnds) {
   EXPECT_EQ(writer_->answer(number).state, RecordAnswer::State::kWritten);
 }
 
+TEST(TooMuchMemory, IsMoreThanHalfOfTheMachines) {
+  RecordSettings record;
+  record.recorder.memory_mb = 513;
+  EXPECT_EQ(too_much_memory(record, 1024), "") << "nothing is recorded";
+  record.folder = "/var";
+  EXPECT_EQ(too_much_memory(record, 1024),
+            "record.memory_mb: 513, expected at most 512, half of this machine's memory");
+  EXPECT_EQ(too_much_memory(record, 1026), "");
+  EXPECT_EQ(too_much_memory(record, 0), "") << "not known";
+  EXPECT_GT(machine_memory_mb(), 64);
+}
+
 }  // namespace
 }  // namespace tubesight::board
