@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/tool_command.h"
 #include "board/bench/campaign/campaign_command.h"
 #include "board/bench/campaign/campaign_options.h"
 #include "board/bench/devices/devices_command.h"
@@ -157,20 +158,79 @@ CLI::App* add_look(CLI::App& app, LookOptions& options) {
   return look;
 }
 
-CLI::App* add_calibrate(CLI::App& app, CalibrateCameraOptions& options, std::string& what) {
+/// The arguments of `calibrate`, some of which belong to one thing alone.
+struct CalibrateArguments {
+  std::string what;
+  std::string file;
+  std::string out;
+  CalibrateToolOptions tool;
+};
+
+CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
   CLI::App* const calibrate = app.add_subcommand(
-      "calibrate", "The camera's internal parameters from views of a dot template");
-  calibrate->add_option("WHAT", what, "What is calibrated: camera")
+      "calibrate", "The camera from views of a dot template, or the tool docked on known tubes");
+  calibrate->add_option("WHAT", arguments.what, "What is calibrated: camera or tool")
       ->required()
-      ->check(CLI::IsMember({"camera"}));
+      ->check(CLI::IsMember({"camera", "tool"}));
   calibrate
-      ->add_option("TARGET.toml", options.target, "Template and views: camera, target, view (TOML)")
+      ->add_option("FILE.toml", arguments.file,
+                   "camera: template and views; tool: the session, with camera and tubesheet")
       ->required();
   calibrate
-      ->add_option("--out", options.out,
-                   "Write the settings found; those that stood there are kept as FILE.bak")
-      ->option_text("FILE.toml");
+      ->add_option("--out", arguments.out,
+                   "Write the settings found; those that stood there are kept as OUT.toml.bak")
+      ->option_text("OUT.toml");
+  CLI::Option* const dock =
+      calibrate
+          ->add_option("--dock", arguments.tool.docks,
+                       "Of a tool: a tube it is docked on, and pictures, which are averaged; may "
+                       "be repeated")
+          ->option_text("ROW,COLUMN...")
+          ->expected(2, 1000);
+  calibrate
+      ->add_option("--check", arguments.tool.checks,
+                   "The same, compared with what the dockings give and not used")
+      ->option_text("ROW,COLUMN...")
+      ->expected(2, 1000)
+      ->needs(dock);
+  calibrate
+      ->add_option("--dock-height-mm", arguments.tool.height_mm,
+                   "Plane of the tube-ends above the docked tip; default 0")
+      ->option_text("H")
+      ->check(CLI::Range(-500.0, 500.0))
+      ->needs(dock);
+  calibrate
+      ->add_option("--dock-offset-mm", arguments.tool.offset_mm,
+                   "The docked tip from the tube's centre, on the sheet; without it a clearance "
+                   "of 0.15 mm is counted")
+      ->option_text("X,Y")
+      ->needs(dock);
+  calibrate
+      ->add_option("--heading-deg", arguments.tool.heading_deg,
+                   "The tool's heading on the sheet in the first docking, a choice; default 0")
+      ->option_text("A")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->needs(dock);
+  calibrate
+      ->add_option("--start", arguments.tool.starts,
+                   "Tube-ends in the pictures, as of pose: once for all, or for each docking and "
+                   "check; default: [start]")
+      ->option_text("\"R,C,U,V;...\"")
+      ->needs(dock);
   return calibrate;
+}
+
+ExitStatus run_calibrate(CalibrateArguments& arguments) {
+  if (arguments.what == "camera") {
+    if (!arguments.tool.docks.empty()) {
+      std::fprintf(stderr, "--dock: a camera is not docked, expected calibrate tool\n");
+      return ExitStatus::kWrongInput;
+    }
+    return run_calibrate_camera({arguments.file, arguments.out});
+  }
+  arguments.tool.session = arguments.file;
+  arguments.tool.out = arguments.out;
+  return run_calibrate_tool(arguments.tool);
 }
 
 CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
@@ -272,9 +332,8 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const pose = add_pose(app, pose_options);
   LookOptions look_options;
   const CLI::App* const look = add_look(app, look_options);
-  CalibrateCameraOptions calibrate_options;
-  std::string what;
-  const CLI::App* const calibrate = add_calibrate(app, calibrate_options, what);
+  CalibrateArguments calibrate_arguments;
+  const CLI::App* const calibrate = add_calibrate(app, calibrate_arguments);
   CampaignOptions campaign_options;
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
@@ -295,7 +354,7 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
     return run_pose(pose_options);
   }
   if (calibrate->parsed()) {
-    return run_calibrate_camera(calibrate_options);
+    return run_calibrate(calibrate_arguments);
   }
   if (look->parsed()) {
     return run_look(look_options);

@@ -40,7 +40,7 @@ _tubesight() {
       ;;
     calibrate)
       options="-h --help"
-      taking="--out"
+      taking="--out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
       ;;
     simulate)
       options="-h --help --window-only"
@@ -92,7 +92,7 @@ _tubesight() {
     esac
   done
   case $command$position in
-    calibrate0) _tubesight_words camera ;;
+    calibrate0) _tubesight_words camera tool ;;
     replay0 | pose0 | simulate0 | calibrate1) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;

@@ -11,10 +11,14 @@ void write_camera(TomlWriter& toml, const core::CameraSettings& camera) {
   write_keys(toml, kCameraKeys, camera);
 }
 
+void write_tool(TomlWriter& toml, const core::ToolSettings& tool) {
+  toml.table("tool");
+  write_keys(toml, kToolKeys, tool);
+}
+
 void write_plant(TomlWriter& toml, const core::SessionSettings& settings) {
   write_camera(toml, settings.camera);
-  toml.table("tool");
-  write_keys(toml, kToolKeys, settings.tool);
+  write_tool(toml, settings.tool);
   toml.table("tubesheet");
   write_keys(toml, kTubesheetKeys, settings.tubesheet);
   for (const AddressesKey& list : kTubesheetLists) {

@@ -10,8 +10,9 @@ namespace tubesight::drivers {
 // What the reader of a session's tables (session_tables.h) makes of these is the settings to the
 // last bit; both go by the keys of session_keys.h.
 
-/// `[camera]` alone.
+/// `[camera]` alone, and `[tool]`.
 void write_camera(TomlWriter& toml, const core::CameraSettings& camera);
+void write_tool(TomlWriter& toml, const core::ToolSettings& tool);
 
 /// `[camera]`, `[tool]` and `[tubesheet]`: what a plant is.
 void write_plant(TomlWriter& toml, const core::SessionSettings& settings);

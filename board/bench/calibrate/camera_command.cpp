@@ -1,19 +1,15 @@
 #include "board/bench/calibrate/camera_command.h"
 
 #include <array>
-#include <chrono>
-#include <ctime>
-#include <filesystem>
 #include <memory>
-#include <system_error>
 #include <vector>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "board/bench/calibrate/camera_text.h"
 #include "board/bench/calibrate/camera_views.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
 #include "core/calibration/camera_calibration.h"
-#include "drivers/files/atomic_file.h"
 #include "drivers/settings/target_settings.h"
 
 namespace tubesight::board {
@@ -28,15 +24,6 @@ struct Workspace {
   core::calibration::FitScratch scratch;
 };
 
-std::string now_in_words() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  static_cast<void>(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
-  return text.data();
-}
-
 std::string find_conflict(const CalibrateCameraOptions& options, const drivers::TargetFile& file) {
   std::vector<NamedPath> inputs = {{"the target's file", options.target}};
   for (const drivers::ViewSettings& view : file.views) {
@@ -46,29 +33,6 @@ std::string find_conflict(const CalibrateCameraOptions& options, const drivers::
     }
   }
   return find_clash(inputs, std::array{NamedPath{"--out", options.out}});
-}
-
-/// Writes the settings; what stood there is kept beside them.
-bool write_settings(const std::string& path, const std::string& text) {
-  drivers::AtomicFile file;
-  if (!file.open(path) || !file.write(text) || !file.flush()) {
-    tell(file.message());
-    return false;
-  }
-  std::error_code error;
-  if (std::filesystem::is_regular_file(path, error)) {
-    std::filesystem::copy_file(path, path + ".bak",
-                               std::filesystem::copy_options::overwrite_existing, error);
-    if (error) {
-      tell(path + ".bak: cannot be written: " + error.message());
-      return false;
-    }
-  }
-  if (!file.commit()) {
-    tell(file.message());
-    return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -103,8 +67,7 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     return ExitStatus::kJobFailed;
   }
   const core::CameraSettings camera = calibrated(file.camera, work->state.camera);
-  return options.out.empty() ||
-                 write_settings(options.out, camera_settings_text(camera, outcome, now_in_words()))
+  return options.out.empty() || write_settings(options.out, camera_settings_text(camera, outcome))
              ? ExitStatus::kDone
              : ExitStatus::kJobFailed;
 }

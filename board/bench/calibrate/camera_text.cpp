@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
 #include "drivers/settings/toml_writer.h"
@@ -44,39 +43,23 @@ double sigma_of(const CalibrationOutcome& outcome, int i) {
   return std::sqrt(std::max(0.0, outcome.fit.camera_covariance(i, i)));
 }
 
-double correlation_of(const CalibrationOutcome& outcome, int i, int k) {
-  const double scale = sigma_of(outcome, i) * sigma_of(outcome, k);
-  return i == k ? 1.0 : scale > 0.0 ? outcome.fit.camera_covariance(i, k) / scale : 0.0;
-}
-
 /// The largest correlation of two parameters.
 void append_correlation(std::string& text, const CalibrationOutcome& outcome) {
   int first = 0;
   int second = 1;
   for (int i = 0; i < 6; ++i) {
     for (int k = i + 1; k < 6; ++k) {
-      if (std::abs(correlation_of(outcome, i, k)) >
-          std::abs(correlation_of(outcome, first, second))) {
+      if (std::abs(correlation_of(outcome.fit.camera_covariance, i, k)) >
+          std::abs(correlation_of(outcome.fit.camera_covariance, first, second))) {
         first = i;
         second = k;
       }
     }
   }
   drivers::print(text, "  largest correlation  %.3f, of %s and %s\n",
-                 correlation_of(outcome, first, second),
+                 correlation_of(outcome.fit.camera_covariance, first, second),
                  kParameters[static_cast<std::size_t>(first)].name,
                  kParameters[static_cast<std::size_t>(second)].name);
-}
-
-/// FNV-1a of a text, for an id that follows the parameters.
-std::string digest_of(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char character : text) {
-    hash = (hash ^ static_cast<std::uint8_t>(character)) * 1099511628211ULL;
-  }
-  std::array<char, 17> hex{};
-  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return hex.data();
 }
 
 }  // namespace
@@ -167,27 +150,13 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
 }
 
 std::string camera_settings_text(const core::CameraSettings& camera,
-                                 const CalibrationOutcome& outcome, std::string_view made_at) {
+                                 const CalibrationOutcome& outcome) {
+  drivers::TomlWriter subject(drivers::TomlManner::kPlain);
+  drivers::write_camera(subject, camera);
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   drivers::write_camera(toml, camera);
-  drivers::TomlWriter canonical(drivers::TomlManner::kPlain);
-  drivers::write_camera(canonical, camera);
-  toml.table("camera_quality");
-  toml.text("id", digest_of(canonical.take()));
-  toml.text("made_at", made_at);
-  std::array<double, 6> sigma{};
-  std::string correlation = "[";
-  for (int i = 0; i < 6; ++i) {
-    sigma[static_cast<std::size_t>(i)] = sigma_of(outcome, i);
-    correlation += i > 0 ? ", [" : "[";
-    for (int k = 0; k < 6; ++k) {
-      drivers::print(correlation, k > 0 ? ", %.6f" : "%.6f", correlation_of(outcome, i, k));
-    }
-    correlation += ']';
-  }
-  toml.numbers("sigma", sigma);
-  toml.raw("correlation", correlation + "]");
-  toml.text("verdict", use_of(outcome.verdict));
+  write_quality(toml, {"camera_quality", subject.take(), outcome.fit.camera_covariance,
+                       use_of(outcome.verdict)});
   return toml.take();
 }
 

@@ -21,9 +21,8 @@ namespace tubesight::board {
                                       const core::calibration::CalibrationState& state,
                                       const core::calibration::CalibrationOutcome& outcome);
 
-/// `[camera]` and `[camera_quality]` as a settings file; `made_at` is an instant in words.
-[[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
-                                               const core::calibration::CalibrationOutcome& outcome,
-                                               std::string_view made_at);
+/// `[camera]` and `[camera_quality]` as a settings file.
+[[nodiscard]] std::string camera_settings_text(
+    const core::CameraSettings& camera, const core::calibration::CalibrationOutcome& outcome);
 
 }  // namespace tubesight::board

@@ -1,0 +1,94 @@
+#include "board/bench/calibrate/calibration_file.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <system_error>
+
+#include "board/bench/output/text_output.h"
+#include "drivers/files/atomic_file.h"
+#include "drivers/files/decimal.h"
+
+namespace tubesight::board {
+namespace {
+
+/// FNV-1a of a text, for an id that follows the parameters.
+std::string digest_of(std::string_view text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char character : text) {
+    hash = (hash ^ static_cast<std::uint8_t>(character)) * 1099511628211ULL;
+  }
+  std::array<char, 17> hex{};
+  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return hex.data();
+}
+
+std::string now_in_words() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> text{};
+  static_cast<void>(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
+  return text.data();
+}
+
+double sigma_of(const core::math::Matrix6d& covariance, int i) {
+  return std::sqrt(std::max(0.0, covariance(i, i)));
+}
+
+}  // namespace
+
+double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
+  const double scale = sigma_of(covariance, i) * sigma_of(covariance, k);
+  return i == k ? 1.0 : scale > 0.0 ? covariance(i, k) / scale : 0.0;
+}
+
+void write_quality(drivers::TomlWriter& toml, const CalibrationQualityText& quality) {
+  toml.table(quality.table);
+  toml.text("id", digest_of(quality.subject));
+  toml.text("made_at", now_in_words());
+  std::array<double, 6> sigma{};
+  std::string correlation = "[";
+  for (int i = 0; i < 6; ++i) {
+    sigma[static_cast<std::size_t>(i)] = sigma_of(quality.covariance, i);
+    correlation += i > 0 ? ", [" : "[";
+    for (int k = 0; k < 6; ++k) {
+      drivers::print(correlation, k > 0 ? ", %.6f" : "%.6f",
+                     correlation_of(quality.covariance, i, k));
+    }
+    correlation += ']';
+  }
+  toml.numbers("sigma", sigma);
+  toml.raw("correlation", correlation + "]");
+  toml.text("verdict", quality.verdict);
+}
+
+bool write_settings(const std::string& path, const std::string& text) {
+  drivers::AtomicFile file;
+  if (!file.open(path) || !file.write(text) || !file.flush()) {
+    tell(file.message());
+    return false;
+  }
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) {
+    std::filesystem::copy_file(path, path + ".bak",
+                               std::filesystem::copy_options::overwrite_existing, error);
+    if (error) {
+      tell(path + ".bak: cannot be written: " + error.message());
+      return false;
+    }
+  }
+  if (!file.commit()) {
+    tell(file.message());
+    return false;
+  }
+  return true;
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/math/small_matrix.h"
+#include "drivers/settings/toml_writer.h"
+
+namespace tubesight::board {
+
+/// What a calibration says of itself beside its table.
+struct CalibrationQualityText {
+  std::string_view table;    ///< "camera_quality" or "tool_quality"
+  std::string_view subject;  ///< the calibrated table's text, whose digest is the id
+  core::math::Matrix6d covariance;
+  std::string_view verdict;
+};
+
+/// Writes the table: id, made_at (now), sigma, correlation, verdict.
+void write_quality(drivers::TomlWriter& toml, const CalibrationQualityText& quality);
+
+/// Puts a settings file in its place; what stood there is kept as `path.bak`. False, and why on
+/// standard error, when it does not get there.
+[[nodiscard]] bool write_settings(const std::string& path, const std::string& text);
+
+/// The correlation of two of six parameters; 0 where one is held.
+[[nodiscard]] double correlation_of(const core::math::Matrix6d& covariance, int i, int k);
+
+}  // namespace tubesight::board
