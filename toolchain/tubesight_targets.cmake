@@ -56,7 +56,6 @@ function(tubesight_write_joined_sources)
   if(NOT lines)
     return()
   endif()
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
   set(text)
   foreach(line IN LISTS lines)
     string(APPEND text "${line}\n")
@@ -298,7 +297,6 @@ endfunction()
 # tubesight_add_whole_program(<name of the test> <program> <regular expression or @file of them>) runs
 # a program once with all its tests but those named. scripts/ctest_summary.py counts them one by one.
 function(tubesight_add_whole_program name program left_out)
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
   # Not by its target, which would be run under the emulator.
   add_test(NAME ${name}
     COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
