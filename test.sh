@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, then builds and tests everything. Fails on a failed and on a skipped test.
 #
-# Usage: ./test.sh                 the stages format, bench, bench-asan, bench-fuzz and visionbox-qemu
+# Usage: ./test.sh                 the stages format, bench, bench-asan, visionbox-qemu and bench-fuzz
 #        ./test.sh quick           while you work: format and bench-quick
 #        ./test.sh long            what the default leaves out: bench-long and bench-tidy
 #        ./test.sh STAGE...        some of them
@@ -10,10 +10,10 @@
 #   bench           optimised build, warnings are errors, every header compiled alone, all tests and
 #                   checks but those labelled `long`
 #   bench-asan      the tests under the address and undefined-behaviour sanitizers, built by clang
-#   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
 #   visionbox-qemu  arm64 build, its tests run under emulation
+#   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
 #   bench-quick     in the folder of bench: the program, the tests that take less than a second, layering
-#   bench-long      each source of a test compiled alone too, and the tests labelled `long`
+#   bench-long      each source and each header compiled alone, and the tests labelled `long`
 #   bench-tidy      clang-tidy on all but the tests
 #
 # `./test.sh long` is to be run before a version is given away, after a change of the tracking, of the
@@ -22,7 +22,7 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")" || exit 1
 
 stages=("$@")
-[ ${#stages[@]} -gt 0 ] || stages=(format bench bench-asan bench-fuzz visionbox-qemu)
+[ ${#stages[@]} -gt 0 ] || stages=(format bench bench-asan visionbox-qemu bench-fuzz)
 case ${stages[*]} in
   quick) stages=(format bench-quick) ;;
   long) stages=(bench-long bench-tidy) ;;
@@ -39,52 +39,107 @@ done
 
 scripts/install_packages.sh bench test || exit 1
 
-# Puts into `spent` the seconds of processor time of all that was started so far: unlike the clock they
-# say the same on a busy machine.
-processor_time() {
-  times > "$times_file"
-  spent=$(awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/)
-    print int(60 * (user[1] + sys[1]) + user[2] + sys[2]) }' "$times_file")
-}
-times_file=$(mktemp)
-trap 'rm -f "$times_file"' EXIT
+work=$(mktemp -d)
+ahead=  # the stage that is built in the background, and its process
+trap '[ -z "$ahead" ] || kill -- "-$builder" 2> /dev/null; rm -rf "$work"' EXIT
 
-failed=()
-results=()
-for stage in "${stages[@]}"; do
-  echo "=== $stage"
-  SECONDS=0
+# Puts into `spent` the seconds of processor time of all that this shell started and waited for: unlike
+# the clock they say the same on a busy machine.
+processor_time() {
+  local file=$work/times.$BASHPID
+  times > "$file"
+  spent=$(awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/)
+    print int(60 * (user[1] + sys[1]) + user[2] + sys[2]) }' "$file")
+}
+
+# measured NAME COMMAND... runs the command and tells what it took.
+measured() {
+  local name=$1 start=$SECONDS before status
   processor_time
   before=$spent
-  case $stage in
-    format)
-      scripts/format.sh --check || {
-        echo "scripts/format.sh puts this right"
-        failed+=("$stage")
-      }
-      ;;
-    *)
-      result=build/$stage/ctest.xml
-      case $stage in
-        bench-quick) result=build/bench/ctest-quick.xml ;;
-        bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
-      esac
-      if [ "$stage" != bench-tidy ]; then
-        rm -f "$result"
-        results+=("$result")
-      fi
-      if [ "$stage" = visionbox-qemu ] && ! toolchain/arm64_sysroot.sh build/sysroot-arm64; then
-        failed+=("$stage")
-        continue
-      fi
-      if [ "$stage" = bench ] && ! toolchain/gpiod2.sh build/gpiod2; then
-        echo "=== libgpiod 2.x is not tested: its header could not be fetched"
-      fi
-      cmake --workflow --preset "$stage" || failed+=("$stage")
+  "${@:2}"
+  status=$?
+  processor_time
+  echo "=== $name took $((SECONDS - start)) s, $((spent - before)) s of processor time"
+  return "$status"
+}
+
+# The configure preset of a stage, which is also the folder in build/.
+folder_of() {
+  case $1 in
+    bench-quick) echo bench ;;
+    bench-fuzz) echo bench-asan ;;
+    *) echo "$1" ;;
+  esac
+}
+
+build_stage() {
+  case $1 in
+    visionbox-qemu) toolchain/arm64_sysroot.sh build/sysroot-arm64 || return 1 ;;
+    bench)
+      toolchain/gpiod2.sh build/gpiod2 \
+        || echo "=== libgpiod 2.x is not tested: its header could not be fetched"
       ;;
   esac
-  processor_time
-  echo "=== $stage took $SECONDS s, $((spent - before)) s of processor time"
+  cmake --preset "$(folder_of "$1")" && cmake --build --preset "$1"
+}
+
+check_stage() {
+  case $1 in
+    format) scripts/format.sh --check || { echo "scripts/format.sh puts this right"; return 1; } ;;
+    bench-tidy) ;;
+    *) ctest --preset "$1" ;;
+  esac
+}
+
+# Builds a stage while another's tests run, which leave processors idle: in the background, in a process
+# group of its own, so that the trap ends all of it, and with the lowest priority, as some of the tests
+# keep time.
+build_ahead() {
+  ahead=$1
+  set -m
+  (
+    [ "$stage" = format ] || renice -n 19 "$BASHPID" > "$work/renice"
+    measured "building $1" build_stage "$1"
+  ) > "$work/$1.log" 2>&1 < /dev/null &
+  builder=$!
+  set +m
+}
+
+results=()
+for stage in "${stages[@]}"; do
+  result=build/$(folder_of "$stage")/ctest.xml
+  case $stage in
+    format | bench-tidy) continue ;;
+    bench-quick) result=build/bench/ctest-quick.xml ;;
+    bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
+  esac
+  rm -f "$result"
+  results+=("$result")
+done
+
+failed=()
+for index in "${!stages[@]}"; do
+  stage=${stages[index]}
+  next=${stages[index + 1]:-}
+  echo "=== $stage"
+  if [ "$stage" = format ]; then
+    built=0
+  elif [ "$ahead" = "$stage" ]; then
+    tail -n +1 -f -s 0.2 --pid="$builder" "$work/$stage.log"
+    wait "$builder"
+    built=$?
+    ahead=
+  else
+    measured "building $stage" build_stage "$stage"
+    built=$?
+  fi
+  case $next in
+    '' | format) ;;
+    *) [ "$(folder_of "$next")" = "$(folder_of "$stage")" ] || build_ahead "$next" ;;
+  esac
+  # In a shell of its own, which does not count the processor time of what is built meanwhile.
+  [ "$built" -eq 0 ] && (measured "testing $stage" check_stage "$stage") || failed+=("$stage")
 done
 
 echo "=== summary"

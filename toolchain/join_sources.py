@@ -45,7 +45,8 @@ def names_of(text):
             continue
         define = DEFINE.match(line)
         if define:
-            hidden.add(define[1])
+            if f"#undef {define[1]}\n" not in text:
+                hidden.add(define[1])
             continue
         if not line or not (line[0].isalpha() or line[0] == "_" or line[0] == "["):
             continue
@@ -160,13 +161,17 @@ PLANTED = {
     "other_row.h": "#pragma once\nnamespace n {\nusing Row = int;\n}\n",
     "a.h": "#pragma once\nnamespace n {\nint f();\n}\n",
     "caller.cpp": "#include \"a.h\"\nnamespace n {\nvoid h() {\n  rounded(1);\n}\n}\n",
+    "macro.cpp": "#define ONE 1\nint one() {\n  return ONE;\n}\n",
+    "same_macro.cpp": "#define ONE 2\nint two() {\n  return ONE;\n}\n#undef ONE\n",
+    "again_macro.cpp": "#define ONE 3\nint three() {\n  return ONE;\n}\n#undef ONE\n",
     "free.cpp": '#include "a.h"\nnamespace n {\nvoid A::rounded() {\n}\nint g() {\n}\n}\n',
 }
 APART = [("a.cpp", "same_helper.cpp"), ("same_constant.cpp", "constant.cpp"),
          ("constant.cpp", "enumerator.cpp"), ("alias.cpp", "header_user.cpp"),
-         ("other_row.cpp", "header_user.cpp"), ("a.cpp", "caller.cpp")]
+         ("other_row.cpp", "header_user.cpp"), ("a.cpp", "caller.cpp"),
+         ("macro.cpp", "same_macro.cpp")]
 TOGETHER = [("a.cpp", "alias.cpp"), ("same_helper.cpp", "constant.cpp"),
-            ("header_user.cpp", "free.cpp")]
+            ("header_user.cpp", "free.cpp"), ("same_macro.cpp", "again_macro.cpp")]
 
 
 def self_test():

@@ -17,10 +17,11 @@
 #     A program, written to <build>/bin/<name>.
 #
 #   tubesight_add_test(<name> SOURCES x_test.cpp ... LINKS tubesight::... [LABELS ...]
-#                      [TIMEOUT seconds])
+#                      [TIMEOUT seconds] [COST seconds])
 #
 #     One GoogleTest program with GoogleTest's own main; each TEST becomes a ctest entry, found when
 #     ctest runs, or the program is one entry (TUBESIGHT_WHOLE_PROGRAMS: where starting it costs).
+#     COST: what takes ten seconds or more anywhere, that ctest begins with it; it need not be exact.
 #     Label `native` keeps it out of the emulated arm64 run, `real_time` out of that under sanitizers,
 #     `long` out of all but `./test.sh long`.
 #
@@ -55,7 +56,6 @@ function(tubesight_write_joined_sources)
   if(NOT lines)
     return()
   endif()
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
   set(text)
   foreach(line IN LISTS lines)
     string(APPEND text "${line}\n")
@@ -231,7 +231,7 @@ function(tubesight_add_program name)
 endfunction()
 
 function(tubesight_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LINKS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "SOURCES;LINKS;LABELS")
   if(DEFINED arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tubesight_add_test(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")
   endif()
@@ -269,7 +269,11 @@ function(tubesight_add_test name)
     cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE absolute)
     set_property(GLOBAL APPEND PROPERTY TUBESIGHT_TEST_SOURCES ${absolute})
   endforeach()
-  set(properties TIMEOUT ${arg_TIMEOUT})
+  set(cost)
+  if(arg_COST)
+    set(cost COST ${arg_COST})
+  endif()
+  set(properties TIMEOUT ${arg_TIMEOUT} ${cost})
   if(arg_LABELS)
     list(APPEND properties LABELS "${arg_LABELS}")
   endif()
@@ -285,7 +289,7 @@ function(tubesight_add_test name)
   # The same for `./test.sh quick`: one process a program, without what takes a second or more.
   if(NOT arg_LABELS MATCHES "campaign|scenarios|statistics|long")
     tubesight_add_whole_program(quick.${name} ${name} @${PROJECT_SOURCE_DIR}/tests/slow_tests.txt)
-    set_tests_properties(quick.${name} PROPERTIES LABELS quick)
+    set_tests_properties(quick.${name} PROPERTIES LABELS quick ${cost})
     set_property(GLOBAL APPEND PROPERTY TUBESIGHT_QUICK_PROGRAMS ${name})
   endif()
 endfunction()
@@ -293,13 +297,9 @@ endfunction()
 # tubesight_add_whole_program(<name of the test> <program> <regular expression or @file of them>) runs
 # a program once with all its tests but those named. scripts/ctest_summary.py counts them one by one.
 function(tubesight_add_whole_program name program left_out)
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
   # Not by its target, which would be run under the emulator.
   add_test(NAME ${name}
     COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/scripts/run_test_program.py
       --results ${PROJECT_BINARY_DIR}/results/${name}.xml --leave-out "${left_out}" --
       ${CMAKE_CROSSCOMPILING_EMULATOR} $<TARGET_FILE:${program}>)
-  get_target_property(sources ${program} SOURCES)
-  list(LENGTH sources number)
-  set_tests_properties(${name} PROPERTIES COST ${number})
 endfunction()
