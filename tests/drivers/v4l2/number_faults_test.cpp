@@ -118,6 +118,18 @@ TEST_F(NumbersAndStamps, StampsThatRunBackwardsAreWrongAndPass) {
   EXPECT_TRUE(bench_.good_within(1));
 }
 
+TEST_F(NumbersAndStamps, PicturesHeldBackAreDamagedHoweverManyCome) {
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.kernel().advance(seconds(5));
+  bench_.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) { buffer.timestamp.tv_sec -= 3; };
+
+  EXPECT_FALSE(bench_.good_within(200));
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
+
+  bench_.camera().tamper = nullptr;
+  EXPECT_TRUE(bench_.good_within(1));
+}
+
 TEST_F(NumbersAndStamps, AFirstPictureFromBeforeTheStreamIsDamaged) {
   bench_.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) {
     if (buffer.sequence == 0) {
