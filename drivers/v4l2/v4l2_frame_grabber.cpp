@@ -201,6 +201,11 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
   v4l2_buffer buffer{};
   const int status = device_.ring().take(buffer);
   if (status == 0) {
+    // Asked after the buffer was filled: one of the input before the change is lost with it.
+    if (device_.switched()) {
+      ++report_.counters.source_changes;
+      return Unexpected(break_off(CameraTrouble::kSwitched, Error::kIo).error());
+    }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
     last_buffer_ = clock_->now();

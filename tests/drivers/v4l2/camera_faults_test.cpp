@@ -292,6 +292,19 @@ TEST_F(CameraFaults, AChangeOfTheSourceIsANewBeginning) {
   expect_recovery();
 }
 
+// Behind the other input there is the camera of another tool.
+TEST_F(CameraFaults, AnInputThatSomebodySwitchedIsChosenAnew) {
+  bench_.camera().inputs.push_back({"Composite 1", 0});
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.camera().input = 1;
+
+  expect_error(Error::kIo);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kSwitched);
+  EXPECT_EQ(bench_.counters().source_changes, 1);
+  expect_recovery();
+  EXPECT_EQ(bench_.camera().input, 0) << "that of the first start, where the settings name none";
+}
+
 TEST_F(CameraFaults, OtherEventsAreNone) {
   bench_.camera().events = {v4l2_event{}};
 
