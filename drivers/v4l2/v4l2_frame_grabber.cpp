@@ -162,6 +162,11 @@ Result<void> V4l2FrameGrabber::wait(FieldTime until) {
     if ((events & (POLLIN | POLLERR)) != 0) {
       return {};
     }
+    // Announced without end, and no event there: waiting would keep a processor busy.
+    ++report_.counters.idle_wakes;
+    if (++idle_in_a_row_ >= kMostIdleWakes) {
+      return break_off(CameraTrouble::kStream, Error::kIo);
+    }
     if (clock_->now() >= until) {
       return nothing_came();
     }

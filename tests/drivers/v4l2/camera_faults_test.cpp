@@ -209,6 +209,15 @@ TEST_F(CameraFaults, ADeviceThatAnnouncesAndHasNothingIsNotAskedForEver) {
   expect_recovery();
 }
 
+TEST_F(CameraFaults, EventsAnnouncedWithoutEndDoNotKeepAProcessorBusy) {
+  bench_.camera().poll_results = std::deque<int>(100, POLLPRI);
+
+  expect_error(Error::kIo);
+  EXPECT_LT(bench_.kernel().calls(VIDIOC_DQEVENT), 10);
+  bench_.camera().poll_results.clear();
+  expect_recovery();
+}
+
 TEST_F(CameraFaults, ASignalOfTheSystemIsNoTimeout) {
   bench_.camera().poll_results = {-EINTR, -EINTR};
 
