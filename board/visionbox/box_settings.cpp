@@ -139,7 +139,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    read_lamp(table, box.source.kind == SourceKind::kV4l2, box.lamp);
+    read_lamp(table, {box.source.kind == SourceKind::kV4l2, box.link.kind != LinkKind::kNone},
+              box.lamp);
   });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);

@@ -13,6 +13,8 @@ using core::Unexpected;
 /// From one change of the level to the next while it is led to another.
 constexpr MonotonicTime kStep = std::chrono::milliseconds(10);
 constexpr MonotonicTime kIdle = std::chrono::milliseconds(100);
+/// A level that stays is said again so often: a device that is gone is found out by that alone.
+constexpr MonotonicTime kProof = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -83,6 +85,7 @@ bool LampKeeper::opened() {
   ramp_.begin(now);
   remember(0, now);
   shining_permille_ = 0;
+  next_proof_ = now + kProof;
   failed_ = false;
   open_ = true;
   return true;
@@ -93,6 +96,7 @@ void LampKeeper::lose(const std::string& why) {
   ++failures_;
   failed_ = true;
   open_ = false;
+  shine(0, monotonic_now());  // nobody knows; dark is what is told of a lamp that cannot be had
   if (why != told_) {
     tell_(why);
     told_ = why;
@@ -100,13 +104,20 @@ void LampKeeper::lose(const std::string& why) {
 }
 
 void LampKeeper::apply(std::int32_t permille, MonotonicTime now) {
+  next_proof_ = now + kProof;
   if (lamp_->dimmer().set_level(permille)) {
-    shining_permille_ = permille;
-    remember(permille, now);
+    shine(permille, now);
     return;
   }
   lamp_->dimmer().stop();
   lose("lamp: the device refuses a level, to be opened again");
+}
+
+void LampKeeper::shine(std::int32_t permille, MonotonicTime now) {
+  if (permille != shining_permille_) {
+    shining_permille_ = permille;
+    remember(permille, now);
+  }
 }
 
 void LampKeeper::keep() {
@@ -117,7 +128,7 @@ void LampKeeper::keep() {
     if (opened()) {
       const std::int32_t level = ramp_.next(wanted, now);
       resting_ = ramp_.resting();
-      if (level != shining_permille_) {
+      if (level != shining_permille_ || now >= next_proof_) {
         apply(level, now);
       }
     }

@@ -81,6 +81,7 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   void keep();
   bool opened();
   void apply(std::int32_t permille, MonotonicTime now);
+  void shine(std::int32_t permille, MonotonicTime now);
   void lose(const std::string& why);
   void remember(std::int32_t permille, MonotonicTime now);
 
@@ -106,6 +107,7 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   History history_;
   core::Snapshot<History> latest_;
   MonotonicTime next_try_{0};
+  MonotonicTime next_proof_{0};
   std::string told_;
 };
 

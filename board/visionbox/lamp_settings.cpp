@@ -26,7 +26,8 @@ constexpr drivers::WholeRange kGpioFrequency{100, 5'000};
 constexpr drivers::WholeRange kPriority{0, 99};
 constexpr drivers::WholeRange kSoft{0, 10'000};
 constexpr drivers::WholeRange kFullFor{0, 3'600};
-constexpr drivers::WholeRange kRest{0, 1'000};
+/// Full light would be no rest, and nothing would be spared.
+constexpr drivers::WholeRange kRest{0, 999};
 constexpr drivers::WholeRange kSilentAfter{0, 86'400};
 
 void read_care(TableReader& table, LampCare& care) {
@@ -46,9 +47,11 @@ void read_care(TableReader& table, LampCare& care) {
   }
 }
 
-void read_silent_link(TableReader& table, SilentLinkSettings& silent) {
+void read_silent_link(TableReader& table, bool link, SilentLinkSettings& silent) {
   std::int32_t after_s = 0;
-  table.optional_whole("silent_after_s", kSilentAfter, after_s);
+  if (table.optional_whole("silent_after_s", kSilentAfter, after_s) && after_s > 0 && !link) {
+    table.complain("silent_after_s", "of a robot's link, which is \"none\", expected it left out");
+  }
   silent.after = std::chrono::seconds(after_s);
   if (after_s > 0) {
     table.whole("silent_permille", kRest, silent.most_permille);
@@ -92,9 +95,9 @@ void read_gpio(TableReader& table, drivers::GpioSettings& gpio) {
 
 }  // namespace
 
-void read_lamp(TableReader& table, bool camera, LampSettings& lamp) {
+void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lamp) {
   std::size_t kind = 0;
-  if (!table.word("kind", kKinds, kind) || (kind != 0 && !camera)) {
+  if (!table.word("kind", kKinds, kind) || (kind != 0 && !company.camera)) {
     if (table.sound("kind")) {
       table.complain("kind", std::string(kKinds[kind]) +
                                  ", expected \"none\": a source that is played has its own light");
@@ -117,7 +120,7 @@ void read_lamp(TableReader& table, bool camera, LampSettings& lamp) {
     read_gpio(table, lamp.gpio);
   }
   read_care(table, lamp.care);
-  read_silent_link(table, lamp.silent_link);
+  read_silent_link(table, company.link, lamp.silent_link);
 }
 
 }  // namespace tubesight::board

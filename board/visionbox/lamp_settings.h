@@ -22,8 +22,13 @@ struct LampSettings {
   SilentLinkSettings silent_link;
 };
 
-/// Reads the table; mistakes go to the reader's problems. `camera`: the source is one; anything
-/// else has a light of its own.
-void read_lamp(drivers::TableReader& table, bool camera, LampSettings& lamp);
+/// What else a box has that its lamp is asked about.
+struct LampCompany {
+  bool camera = false;  ///< the source is one; anything else has a light of its own
+  bool link = false;    ///< there is a robot that may fall silent
+};
+
+/// Reads the table; mistakes go to the reader's problems.
+void read_lamp(drivers::TableReader& table, const LampCompany& company, LampSettings& lamp);
 
 }  // namespace tubesight::board

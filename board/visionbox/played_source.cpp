@@ -232,7 +232,8 @@ Result<hal::FieldLease> PlayedSource::grab_for(milliseconds timeout) {
                std::max(monotonic_now(), clock_.monotonic(slot.field.mid_exposure)));
   }
   due_ = clock_.monotonic(slot.field.mid_exposure);
-  if (due_ > latest) {
+  // Out of real time making it may have taken longer than the time that there was to wait.
+  if (due_ > (settings_.in_real_time ? latest : std::max(latest, monotonic_now()))) {
     sleep_until(latest);
     return Unexpected(Error::kTimeout);
   }

@@ -137,12 +137,14 @@ void VisionBox::look_after() {
     kept_link_->look_after(monotonic_now());
   }
   if (kept_link_ != nullptr && world_->lamp() != nullptr) {
+    // Where it cannot be known whether the box tracks, the lamp stays as it is.
     TrackingStatus status;
-    const bool known = tracking_.status(status);
-    const bool tracking = known && (status.sighting.state == core::TrackState::kTracking ||
-                                    status.sighting.state == core::TrackState::kDegraded);
-    world_->lamp()->set_most(silent_link_.most_permille(kept_link_->report().counters.requests,
-                                                        tracking, monotonic_now()));
+    if (tracking_.status(status)) {
+      const bool tracking = status.sighting.state == core::TrackState::kTracking ||
+                            status.sighting.state == core::TrackState::kDegraded;
+      world_->lamp()->set_most(silent_link_.most_permille(kept_link_->report().counters.requests,
+                                                          tracking, monotonic_now()));
+    }
   }
 }
 

@@ -58,6 +58,7 @@ Result<void> GpioDimmer::start() {
   wanted_permille_ = 0;
   status_ = 0;
   lit_ = false;
+  darkened_ = false;
   if (pulsed()) {
     period_timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC);
     pulse_timer_ = timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC);
@@ -110,6 +111,7 @@ Result<void> GpioDimmer::set_level(std::int32_t permille) {
   if (permille == 0 && pulsed()) {
     // At once, whatever the thread is at: it may be the last thing that the program does.
     static_cast<void>(bank_->set(0));
+    darkened_ = true;
   }
   const int status = pulsed() ? status_.exchange(0) : bank_->set(steps_of(permille));
   if (status != 0) {
@@ -143,7 +145,7 @@ void GpioDimmer::pulse() {
     late_ += ticks > 1 ? static_cast<std::int64_t>(ticks) - 1 : 0;
     const std::int64_t lit_ns = period_ns * wanted_permille_ / hal::kFullLevel_permille;
     const bool on = lit_ns >= kShortest_ns;
-    if (on != lit_) {
+    if (darkened_.exchange(false) || on != lit_) {
       set_line(on);
     }
     if (on && lit_ns <= period_ns - kShortest_ns) {

@@ -69,6 +69,7 @@ class GpioDimmer final : public hal::Dimmer {
   std::atomic<std::int32_t> wanted_permille_{0};
   std::atomic<int> status_{0};  ///< -errno of a change of the line that was refused; 0: none was
   bool lit_ = false;            ///< of the thread
+  std::atomic<bool> darkened_{false};  ///< past the thread, whose lit_ may be wrong
   std::atomic<std::int64_t> late_{0};
 };
 

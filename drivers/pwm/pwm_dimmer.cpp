@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -45,6 +46,20 @@ std::int64_t read_number(const std::string& path) {
     close(descriptor);
   }
   return value;
+}
+
+/// A chip without polarity has no such file: its outputs are as usual.
+bool usual_polarity(const std::string& channel) {
+  constexpr std::string_view kUsual = "normal";
+  std::array<char, kUsual.size()> text{};
+  const int descriptor = open((channel + "/polarity").c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return true;
+  }
+  const ssize_t bytes = read(descriptor, text.data(), text.size());
+  close(descriptor);
+  return bytes == static_cast<ssize_t>(text.size()) &&
+         std::string_view(text.data(), text.size()) == kUsual;
 }
 
 }  // namespace
@@ -108,11 +123,15 @@ Result<void> PwmDimmer::start() {
   // A channel that a box left at dark is taken over without a flash. Otherwise a period must not be
   // shorter than the pulse in it, whatever somebody left there, and polarity can be changed at rest
   // only; a chip without one keeps the usual.
-  if (read_number(channel_ + "/period") != period_ns_ || read_number(channel_ + "/enable") != 1) {
+  if (read_number(channel_ + "/period") != period_ns_ || read_number(channel_ + "/enable") != 1 ||
+      !usual_polarity(channel_)) {
     TUBESIGHT_TRY(put("duty_cycle", "0"));
     TUBESIGHT_TRY(put("enable", "0"));
     static_cast<void>(write_file(channel_ + "/polarity", "normal"));
     TUBESIGHT_TRY(put("period", period));
+  }
+  if (!usual_polarity(channel_)) {
+    return refuse("polarity is not normal, expected it so: dark would be light");
   }
   const std::int64_t kept = read_number(channel_ + "/period");
   constexpr std::int64_t kParts = 100;  // a chip may round to its clock, by 1 %

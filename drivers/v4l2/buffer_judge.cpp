@@ -84,7 +84,8 @@ Parity BufferJudge::parity_of(const v4l2_buffer& buffer) {
   return first_of(scan_);
 }
 
-core::Field BufferJudge::first_field(const v4l2_buffer& buffer, FieldTime arrival, bool no_signal) {
+core::Field BufferJudge::first_field(const v4l2_buffer& buffer, const Arrival& arrival,
+                                     bool no_signal) {
   CameraCounters& counters = report_->counters;
   ++counters.buffers;
   report_->trouble = CameraTrouble::kNone;
@@ -124,13 +125,13 @@ void BufferJudge::count(const v4l2_buffer& buffer) {
   }
 }
 
-void BufferJudge::judge_time(const v4l2_buffer& buffer, FieldTime arrival) {
+void BufferJudge::judge_time(const v4l2_buffer& buffer, const Arrival& arrival) {
   const FieldTime stamp = std::chrono::seconds(buffer.timestamp.tv_sec) +
                           std::chrono::microseconds(buffer.timestamp.tv_usec);
-  const auto judged = stamps_.judge(kind_of_stamp(buffer.flags), stamp, arrival);
+  const auto judged = stamps_.judge(kind_of_stamp(buffer.flags), stamp, arrival.at);
   first_.mid_exposure = judged.mid_exposure;
   report_->counters.without_stamp += judged.by_arrival ? 1 : 0;
-  if (judged.wrong) {
+  if (judged.wrong || (judged.by_arrival && arrival.late)) {
     doubt(first_, CameraTrouble::kStamps, report_->counters.wrong_stamps);
   }
   report_->stamps = !judged.by_arrival && !judged.wrong;

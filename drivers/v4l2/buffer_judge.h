@@ -25,9 +25,15 @@ class BufferJudge {
   void begin(core::Scan scan, const AgreedFormat& agreed, core::FieldTime exposure,
              core::FieldTime now);
 
-  /// A buffer that arrived at `arrival`: its first field, but for the pixels. `no_signal`: the
-  /// input says that none came in.
-  [[nodiscard]] core::Field first_field(const ::v4l2_buffer& buffer, core::FieldTime arrival,
+  /// When a buffer was taken from the driver.
+  struct Arrival {
+    core::FieldTime at{0};
+    bool late = false;  ///< it may have lain there for long
+  };
+
+  /// A buffer that arrived: its first field, but for the pixels. `no_signal`: the input says that
+  /// none came in.
+  [[nodiscard]] core::Field first_field(const ::v4l2_buffer& buffer, const Arrival& arrival,
                                         bool no_signal);
 
   /// The other field of that buffer.
@@ -49,7 +55,7 @@ class BufferJudge {
   [[nodiscard]] core::Parity parity_of(const ::v4l2_buffer& buffer);
   void doubt(core::Field& field, CameraTrouble trouble, std::int64_t& counter);
   void count(const ::v4l2_buffer& buffer);
-  void judge_time(const ::v4l2_buffer& buffer, core::FieldTime arrival);
+  void judge_time(const ::v4l2_buffer& buffer, const Arrival& arrival);
 
   CameraReport* report_;
   core::Scan scan_ = core::Scan::kProgressive;

@@ -1,5 +1,6 @@
 #include "drivers/v4l2/camera_device.h"
 
+#include <cerrno>
 #include <cstring>
 
 #include <linux/videodev2.h>
@@ -45,14 +46,35 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
   TUBESIGHT_TRY(check(settings, node, message));
+  // Nothing is set on a camera that another program uses: its input would be switched under it. No
+  // buffers are asked for, which only the stranger is refused.
+  v4l2_requestbuffers none{};
+  none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  none.memory = V4L2_MEMORY_MMAP;
+  if (kernel_->ioctl(descriptor_, VIDIOC_REQBUFS, &none) == -EBUSY) {
+    return refuse(Error::kIo, message,
+                  "is busy: another program takes its pictures, expected it free");
+  }
+  keep_input();
   agreed_ = {};
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
+  input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
   // A driver that knows nothing of it never says that the source has changed.
   v4l2_event_subscription change{};
   change.type = V4L2_EVENT_SOURCE_CHANGE;
   change.id = agreed_.input;
   static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
   return ring_.open(descriptor_, agreed_.bytes, message);
+}
+
+/// Settings that name no input take the one found at the first start, not one that somebody has
+/// switched to since.
+void CameraDevice::keep_input() {
+  int index = 0;
+  if (input_ >= 0 && kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) == 0 && index != input_) {
+    index = input_;
+    static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_S_INPUT, &index));
+  }
 }
 
 Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string& node,
@@ -82,6 +104,12 @@ void CameraDevice::close() {
     kernel_->close(descriptor_);
   }
   descriptor_ = -1;
+}
+
+bool CameraDevice::switched() {
+  int index = 0;
+  return agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) == 0 &&
+         static_cast<std::uint32_t>(index) != agreed_.input;
 }
 
 bool CameraDevice::without_signal() {

@@ -24,6 +24,9 @@ class CameraDevice {
   [[nodiscard]] core::Result<void> open(const V4l2Settings& settings, std::string& message);
   void close();
 
+  /// Whether another program has chosen another input: pictures are another camera's.
+  [[nodiscard]] bool switched();
+
   /// Whether the input says that no signal comes in. May take its time.
   [[nodiscard]] bool without_signal();
 
@@ -33,12 +36,14 @@ class CameraDevice {
 
  private:
   core::Result<void> open_all(const V4l2Settings& settings, std::string& message);
+  void keep_input();
   core::Result<void> check(const V4l2Settings& settings, const std::string& node,
                            std::string& message);
 
   Kernel* kernel_;
   int descriptor_ = -1;
   AgreedFormat agreed_;
+  int input_ = -1;  ///< chosen at the first start; -1: none was
   BufferRing ring_;
 };
 

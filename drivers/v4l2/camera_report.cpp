@@ -15,6 +15,7 @@ const char* words_of(CameraTrouble trouble) {
     case CameraTrouble::kSilent: return "nothing comes";
     case CameraTrouble::kStream: return "the driver gave up";
     case CameraTrouble::kSourceChanged: return "the signal's format changed";
+    case CameraTrouble::kSwitched: return "another input was chosen";
     case CameraTrouble::kGone: return "the device is gone";
   }
   return "";

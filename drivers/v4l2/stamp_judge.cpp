@@ -19,6 +19,7 @@ void StampJudge::begin(const FieldTiming& timing, FieldTime now) {
   timing_ = timing;
   begin_ = now;
   last_stamp_ = FieldTime{INT64_MIN};
+  last_told_ = FieldTime{0};
   wrong_in_a_row_ = 0;
   distrusted_ = false;
 }
@@ -31,7 +32,12 @@ FieldTime StampJudge::mid_of_first(StampKind kind, FieldTime stamp) const {
   return stamp - timing_.fields_a_buffer * timing_.span - timing_.exposure / 2;
 }
 
-/// What was exposed before the stream began is of an earlier one.
+/// A clock that goes on and says that the picture waited too long, or that it was exposed before
+/// the stream began. Zero, and a stamp that stands still, say nothing of the picture's age.
+bool StampJudge::old(FieldTime stamp, FieldTime arrival) const {
+  return stamp > last_told_ && (stamp < begin_ || stamp < arrival - kOldest);
+}
+
 bool StampJudge::plausible(FieldTime stamp, FieldTime arrival) const {
   return stamp > last_stamp_ && stamp >= begin_ && stamp >= arrival - kOldest &&
          stamp <= arrival + kAhead;
@@ -39,8 +45,10 @@ bool StampJudge::plausible(FieldTime stamp, FieldTime arrival) const {
 
 StampJudge::Judged StampJudge::judge(StampKind kind, FieldTime stamp, FieldTime arrival) {
   Judged judged;
-  judged.by_arrival = distrusted_ || kind == StampKind::kUnknown;
-  if (!judged.by_arrival) {
+  judged.wrong = kind != StampKind::kUnknown && old(stamp, arrival);
+  judged.by_arrival = !judged.wrong && (distrusted_ || kind == StampKind::kUnknown);
+  last_told_ = stamp;
+  if (!judged.by_arrival && !judged.wrong) {
     if (plausible(stamp, arrival)) {
       wrong_in_a_row_ = 0;
       last_stamp_ = stamp;

@@ -32,7 +32,8 @@ class StampJudge {
     bool by_arrival = false;          ///< there is no stamp to go by
   };
 
-  /// Wrong stamps in a row after which the driver's stamps are not looked at any more.
+  /// Stamps in a row that are of no clock of ours, after which arrival stands for them. One that
+  /// goes on and lies too far in the past may be true: it is wrong however often it comes.
   static constexpr std::int32_t kMostWrong = 8;
 
   /// The stream begins at `now`. Instants go on growing over it.
@@ -43,12 +44,14 @@ class StampJudge {
 
  private:
   [[nodiscard]] core::FieldTime mid_of_first(StampKind kind, core::FieldTime stamp) const;
+  [[nodiscard]] bool old(core::FieldTime stamp, core::FieldTime arrival) const;
   [[nodiscard]] bool plausible(core::FieldTime stamp, core::FieldTime arrival) const;
 
   FieldTiming timing_;
   core::FieldTime begin_{0};
-  core::FieldTime last_{INT64_MIN};  ///< mid-exposure of the last field
-  core::FieldTime last_stamp_{INT64_MIN};
+  core::FieldTime last_{INT64_MIN};        ///< mid-exposure of the last field
+  core::FieldTime last_stamp_{INT64_MIN};  ///< that was plausible
+  core::FieldTime last_told_{0};           ///< whatever it was
   std::int32_t wrong_in_a_row_ = 0;
   bool distrusted_ = false;
 };

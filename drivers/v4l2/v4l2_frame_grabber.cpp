@@ -69,6 +69,8 @@ Result<void> V4l2FrameGrabber::start() {
   failed_ = false;
   last_buffer_ = now;
   settled_ = false;
+  looked_ = now;
+  backlog_ = false;
   idle_in_a_row_ = 0;
   errors_in_a_row_ = 0;
   refused_in_a_row_ = 0;
@@ -126,7 +128,12 @@ Result<void> V4l2FrameGrabber::next_buffer(std::chrono::milliseconds timeout) {
     } else {
       refused_in_a_row_ = 0;
     }
-    TUBESIGHT_TRY(wait(until));
+    const FieldTime before = clock_->now();
+    const auto announced = wait(until);
+    look_for_backlog(before, until);
+    if (!announced) {
+      return announced;
+    }
     const auto taken = take_buffer();
     if (!taken) {
       return Unexpected(taken.error());
@@ -135,6 +142,21 @@ Result<void> V4l2FrameGrabber::next_buffer(std::chrono::milliseconds timeout) {
       return {};
     }
   }
+}
+
+/// Who was kept from looking for longer than a buffer takes finds those of that time: of what age,
+/// only their stamps can tell. The first one that had to be waited for is new again.
+void V4l2FrameGrabber::look_for_backlog(FieldTime before, FieldTime until) {
+  const FieldTime after = clock_->now();
+  const FieldTime usual = 2 * fields_a_buffer() * device_.agreed().span;
+  if (after - until > usual) {
+    backlog_ = true;
+  } else if (after - before > device_.agreed().span / 8) {
+    backlog_ = false;
+  } else if (before - looked_ > usual) {
+    backlog_ = true;
+  }
+  looked_ = after;
 }
 
 /// Until a buffer is announced.
@@ -161,6 +183,11 @@ Result<void> V4l2FrameGrabber::wait(FieldTime until) {
     }
     if ((events & (POLLIN | POLLERR)) != 0) {
       return {};
+    }
+    // Announced without end, and no event there: waiting would keep a processor busy.
+    ++report_.counters.idle_wakes;
+    if (++idle_in_a_row_ >= kMostIdleWakes) {
+      return break_off(CameraTrouble::kStream, Error::kIo);
     }
     if (clock_->now() >= until) {
       return nothing_came();
@@ -201,13 +228,18 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
   v4l2_buffer buffer{};
   const int status = device_.ring().take(buffer);
   if (status == 0) {
+    // Asked after the buffer was filled: one of the input before the change is lost with it.
+    if (device_.switched()) {
+      ++report_.counters.source_changes;
+      return Unexpected(break_off(CameraTrouble::kSwitched, Error::kIo).error());
+    }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
     last_buffer_ = clock_->now();
     settled_ = true;
     held_ = buffer.index;
     fields_left_ = fields_a_buffer();
-    next_ = judge_.first_field(buffer, last_buffer_, no_signal_);
+    next_ = judge_.first_field(buffer, {last_buffer_, backlog_}, no_signal_);
     return true;
   }
   bool passes = false;

@@ -66,6 +66,7 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
  private:
   core::Result<void> next_buffer(std::chrono::milliseconds timeout);
   core::Result<void> wait(core::FieldTime until);
+  void look_for_backlog(core::FieldTime before, core::FieldTime until);
   core::Result<void> nothing_came();
   core::Result<void> take_events();
   core::Result<bool> take_buffer();
@@ -95,6 +96,8 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   core::Field next_;                ///< the first of those, but for its pixels
   core::FieldTime last_buffer_{0};  ///< when it arrived; before the first one the start
   bool settled_ = false;            ///< there was one since the start
+  core::FieldTime looked_{0};       ///< when somebody last waited for one
+  bool backlog_ = false;            ///< it may have lain there for long
   std::int32_t idle_in_a_row_ = 0;
   std::int32_t errors_in_a_row_ = 0;
   std::int32_t refused_in_a_row_ = 0;

@@ -207,7 +207,8 @@ TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
                    "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\n"
                    "channel = 1\nfrequency_hz = 20000\ninverted = true\nsoft_ms = 0\n"
                    "full_for_s = 60\nrest_permille = 700\nsilent_after_s = 300\n"
-                   "silent_permille = 100\n"))
+                   "silent_permille = 100\n"
+                   "[link]\nkind = \"modbus\"\ndevice = \"/dev/ttyS9\"\n"))
       << messages_.front();
 
   EXPECT_EQ(box_->lamp.kind, LampKind::kPwm);
@@ -257,6 +258,13 @@ TEST_F(BoxSettingsTest, MistakesOfALampAreTold) {
   EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
                                            "lines = [\"1\", \"2\"]\npriority = 5\n"));
   EXPECT_TRUE(told("lamp.priority: of pulses, which a single line has, expected it left out"));
+
+  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
+                                           "lines = [\"1\"]\nfull_for_s = 60\n"
+                                           "rest_permille = 1000\nsilent_after_s = 5\n"
+                                           "silent_permille = 0\n"));
+  EXPECT_TRUE(told("lamp.rest_permille: 1000")) << "nothing would be spared";
+  EXPECT_TRUE(told("lamp.silent_after_s: of a robot's link, which is \"none\""));
 
   EXPECT_FALSE(load(std::string(kSource) + "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n"
                                            "lines = [\"1\"]\n"));

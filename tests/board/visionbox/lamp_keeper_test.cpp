@@ -174,6 +174,19 @@ TEST_F(LampKeeperTest, ALampThatGoesIsToldAndOpenedAgain) {
   EXPECT_GE(keeper_.report().failures, 1);
 }
 
+TEST_F(LampKeeperTest, ALampThatGoesAtASteadyLevelIsFoundOut) {
+  ASSERT_TRUE(keeper_.start());
+  ASSERT_TRUE(keeper_.set_level(500));
+  ASSERT_TRUE(within_two_seconds([&] { return lamp_.last() == 500; }));
+  lamp_.absent_ = true;
+  lamp_.broken_ = true;
+
+  ASSERT_TRUE(within_two_seconds([&] { return !keeper_.report().open; })) << "nobody sets a level";
+  EXPECT_EQ(keeper_.report().level_permille, 0);
+  EXPECT_EQ(keeper_.level_permille_at(monotonic_now()), 0) << "nobody knows what shines";
+  EXPECT_FALSE(keeper_.set_level(500));
+}
+
 TEST_F(LampKeeperTest, NoMoreShinesThanMay) {
   ASSERT_TRUE(keeper_.start());
   ASSERT_TRUE(keeper_.set_level(800));

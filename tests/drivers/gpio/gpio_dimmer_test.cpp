@@ -146,6 +146,22 @@ TEST(GpioDimmer, DarkDoesNotWaitForThePulsesThread) {
   EXPECT_EQ(bench.log().all().back(), 0u) << "and stays";
 }
 
+TEST(GpioDimmer, FullLightComesBackFromADarkThatTheThreadNeverSaw) {
+  GpioBench bench({"18"});
+  ASSERT_TRUE(bench.dimmer().start());
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(bench.dimmer().set_level(1000));
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    const std::size_t before = bench.log().changes();
+
+    ASSERT_TRUE(bench.dimmer().set_level(0));
+    ASSERT_TRUE(bench.dimmer().set_level(1000));
+
+    ASSERT_TRUE(bench.changes(before + 2)) << i;
+    EXPECT_EQ(bench.log().all().back(), 1u) << i;
+  }
+}
+
 TEST(GpioDimmer, SeveralLinesAreStepsOfLight) {
   GpioBench bench({"18", "23", "24"});
   ASSERT_TRUE(bench.dimmer().start());

@@ -26,9 +26,10 @@ class PwmFolder {
                                  folder_.path("class/pwmchip0/device"));
     set("npwm", "2\n");
     set("export", "");
-    for (const char* file : {"pwm0/duty_cycle", "pwm0/period", "pwm0/enable", "pwm0/polarity"}) {
+    for (const char* file : {"pwm0/duty_cycle", "pwm0/period", "pwm0/enable"}) {
       set(file, "0\n");
     }
+    set("pwm0/polarity", "normal\n");
   }
 
   [[nodiscard]] std::string root() const { return folder_.path("class"); }
@@ -92,6 +93,28 @@ TEST(PwmDimmer, AnInvertedLampIsDarkWhileTheOutputIsHigh) {
   EXPECT_EQ(folder.value("pwm0/enable"), "1") << "an output that falls would be light";
 }
 
+// Somebody left the channel at just our period, but upside down: its dark would be full light.
+TEST(PwmDimmer, APolarityThatSomebodyLeftIsSetBack) {
+  PwmFolder folder;
+  folder.set("pwm0/period", "1000000\n");
+  folder.set("pwm0/enable", "1\n");
+  folder.set("pwm0/polarity", "inversed\n");
+  PwmDimmer dimmer(settings_of(), folder.root());
+
+  ASSERT_TRUE(dimmer.start()) << dimmer.message();
+
+  EXPECT_EQ(folder.value("pwm0/polarity"), "normal");
+  EXPECT_EQ(folder.value("pwm0/duty_cycle"), "0");
+}
+
+TEST(PwmDimmer, AChipWithoutPolarityIsAsUsual) {
+  PwmFolder folder;
+  fs::remove(folder.file("pwm0/polarity"));
+  PwmDimmer dimmer(settings_of(), folder.root());
+
+  EXPECT_TRUE(dimmer.start()) << dimmer.message();
+}
+
 TEST(PwmDimmer, IsFoundByItsNameToo) {
   PwmFolder folder;
   PwmSettings settings = settings_of();
@@ -148,6 +171,16 @@ TEST(PwmDimmer, APeriodThatIsNotKeptIsRefused) {
 
   EXPECT_EQ(refusal(folder, settings_of()),
             "lamp on fe20c000.pwm channel 0: period is -1 ns, expected 1000000");
+}
+
+TEST(PwmDimmer, APolarityThatStaysIsRefused) {
+  PwmFolder folder;
+  fs::remove(folder.file("pwm0/polarity"));
+  fs::create_symlink("/dev/null", folder.file("pwm0/polarity"));
+
+  EXPECT_EQ(refusal(folder, settings_of()),
+            "lamp on fe20c000.pwm channel 0: polarity is not normal, expected it so: dark would be "
+            "light");
 }
 
 TEST(PwmDimmer, ARefusalOfTheKernelIsToldAndTheNextStartMaySucceed) {

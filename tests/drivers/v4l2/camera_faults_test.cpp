@@ -209,6 +209,15 @@ TEST_F(CameraFaults, ADeviceThatAnnouncesAndHasNothingIsNotAskedForEver) {
   expect_recovery();
 }
 
+TEST_F(CameraFaults, EventsAnnouncedWithoutEndDoNotKeepAProcessorBusy) {
+  bench_.camera().poll_results = std::deque<int>(100, POLLPRI);
+
+  expect_error(Error::kIo);
+  EXPECT_LT(bench_.kernel().calls(VIDIOC_DQEVENT), 10);
+  bench_.camera().poll_results.clear();
+  expect_recovery();
+}
+
 TEST_F(CameraFaults, ASignalOfTheSystemIsNoTimeout) {
   bench_.camera().poll_results = {-EINTR, -EINTR};
 
@@ -290,6 +299,19 @@ TEST_F(CameraFaults, AChangeOfTheSourceIsANewBeginning) {
   EXPECT_EQ(bench_.report().trouble, CameraTrouble::kSourceChanged);
   EXPECT_EQ(bench_.counters().source_changes, 1);
   expect_recovery();
+}
+
+// Behind the other input there is the camera of another tool.
+TEST_F(CameraFaults, AnInputThatSomebodySwitchedIsChosenAnew) {
+  bench_.camera().inputs.push_back({"Composite 1", 0});
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.camera().input = 1;
+
+  expect_error(Error::kIo);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kSwitched);
+  EXPECT_EQ(bench_.counters().source_changes, 1);
+  expect_recovery();
+  EXPECT_EQ(bench_.camera().input, 0) << "that of the first start, where the settings name none";
 }
 
 TEST_F(CameraFaults, OtherEventsAreNone) {

@@ -124,9 +124,33 @@ TEST(CameraSetup, ABusyCameraSaysSo) {
   EXPECT_EQ(refusal(bench, Error::kIo),
             "is busy: another program takes its pictures, expected it free");
 
-  bench.camera().results[VIDIOC_REQBUFS] = {-EBUSY};
+  bench.camera().results[VIDIOC_REQBUFS] = {0, -EBUSY};
   EXPECT_TRUE(refusal(bench, Error::kIo).starts_with("is busy: "));
   EXPECT_TRUE(bench.grabber().start()) << "when it is free";
+}
+
+TEST(CameraSetup, ASecondBoxTouchesNothingOfACameraThatOneHas) {
+  CameraBench bench;
+  bench.camera().inputs.push_back({"Composite 1", 0});
+  ASSERT_TRUE(bench.grabber().start());
+  V4l2Settings settings = settings_of();
+  settings.input = "Composite 1";
+  settings.controls = {{"Gain", "70"}};
+  FakeCamera::Control gain;
+  gain.name = "Gain";
+  bench.camera().controls = {gain};
+  drivers::V4l2FrameGrabber second(settings, bench.kernel(), bench.kernel());
+
+  ASSERT_FALSE(second.start());
+  EXPECT_EQ(second.messages()[0],
+            std::string("camera ") + kByPath +
+                ": is busy: another program takes its pictures, expected it free");
+  EXPECT_EQ(bench.camera().input, 0) << "that of the first box";
+  EXPECT_EQ(bench.camera().controls[0].value, 0);
+  EXPECT_TRUE(bench.good_within(1));
+
+  bench.grabber().stop();
+  EXPECT_TRUE(second.start()) << "when the first one is gone";
 }
 
 TEST(CameraSetup, WhatIsNoCameraSaysSo) {

@@ -37,6 +37,7 @@ struct FakeCamera {
   std::string serial;
   std::string card = "Grabber";
   std::vector<Input> inputs{{"S-Video", 0}};
+  int input = 0;  ///< the one chosen
   v4l2_std_id standard = 0;
   std::vector<std::uint32_t> formats{V4L2_PIX_FMT_GREY};
   std::vector<std::uint32_t> fields{V4L2_FIELD_NONE};  ///< others are answered with the first

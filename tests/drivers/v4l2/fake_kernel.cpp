@@ -90,9 +90,9 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       input.status = camera.inputs[input.index].status;
       return 0;
     }
-    case VIDIOC_S_INPUT: return 0;
+    case VIDIOC_S_INPUT: camera.input = *static_cast<int*>(argument); return 0;
     case VIDIOC_G_INPUT:
-      *static_cast<int*>(argument) = 0;
+      *static_cast<int*>(argument) = camera.input;
       return camera.inputs.empty() ? -ENOTTY : 0;
     case VIDIOC_S_STD: {
       const v4l2_std_id wanted = *static_cast<v4l2_std_id*>(argument);
@@ -151,7 +151,10 @@ int FakeKernel::answer_stream(Opened& opened, unsigned long request, void* argum
       event.pending = static_cast<std::uint32_t>(camera.events.size());
       return 0;
     }
-    case VIDIOC_REQBUFS: return give_buffers(opened, *static_cast<v4l2_requestbuffers*>(argument));
+    case VIDIOC_REQBUFS:
+      return others_stream(opened)
+                 ? -EBUSY
+                 : give_buffers(opened, *static_cast<v4l2_requestbuffers*>(argument));
     case VIDIOC_QUERYBUF: {
       auto& buffer = *static_cast<v4l2_buffer*>(argument);
       buffer.length = static_cast<std::uint32_t>(opened.buffers[buffer.index].memory.size());
@@ -190,6 +193,14 @@ int FakeKernel::set_format(Opened& opened, v4l2_format& format) const {
   pix.sizeimage = pix.bytesperline * pix.height;
   opened.format = pix;
   return 0;
+}
+
+/// Whoever has a camera's buffers has the camera.
+bool FakeKernel::others_stream(const Opened& opened) const {
+  return std::any_of(opened_.begin(), opened_.end(), [&](const auto& entry) {
+    const Opened& other = entry.second;
+    return &other != &opened && other.camera == opened.camera && !other.buffers.empty();
+  });
 }
 
 int FakeKernel::give_buffers(Opened& opened, v4l2_requestbuffers& wanted) const {

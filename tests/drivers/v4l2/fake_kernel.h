@@ -68,6 +68,7 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
   int answer_format(Opened& opened, unsigned long request, void* argument);
   int answer_stream(Opened& opened, unsigned long request, void* argument);
   int set_format(Opened& opened, v4l2_format& format) const;
+  [[nodiscard]] bool others_stream(const Opened& opened) const;
   int give_buffers(Opened& opened, v4l2_requestbuffers& wanted) const;
   int dequeue(Opened& opened, v4l2_buffer& buffer);
   void expose(Opened& opened);

@@ -102,6 +102,32 @@ TEST_F(NumbersAndStamps, StampsOfAnotherClockThatTheDriverNamesAreNotListenedTo)
   EXPECT_FALSE(bench_.report().stamps);
 }
 
+// Of ten seconds in which the program stood still there are six buffers, and nothing says how old.
+TEST_F(NumbersAndStamps, WithoutStampsWhatLayThereIsDamaged) {
+  bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.kernel().advance(seconds(10));
+
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(bench_.next_status(), FieldStatus::kDamaged) << i;
+    EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
+  }
+  EXPECT_TRUE(bench_.good_within(1));
+}
+
+TEST_F(NumbersAndStamps, WithoutStampsAPictureThatHadToBeWaitedForIsNew) {
+  bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.camera().every = {};
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_FALSE(bench_.grab());
+  }
+  bench_.camera().every = core::FieldTime{33'333'333};
+  static_cast<void>(bench_.next_status());
+
+  EXPECT_TRUE(bench_.good_within(1));
+}
+
 TEST_F(NumbersAndStamps, StampsThatRunBackwardsAreWrongAndPass) {
   ASSERT_TRUE(bench_.good_within(1));
   const core::FieldTime before = bench_.grab()->field().mid_exposure;
@@ -113,6 +139,18 @@ TEST_F(NumbersAndStamps, StampsThatRunBackwardsAreWrongAndPass) {
     EXPECT_GT(lease->field().mid_exposure, before);
   }
   EXPECT_EQ(bench_.counters().wrong_stamps, 1);
+
+  bench_.camera().tamper = nullptr;
+  EXPECT_TRUE(bench_.good_within(1));
+}
+
+TEST_F(NumbersAndStamps, PicturesHeldBackAreDamagedHoweverManyCome) {
+  ASSERT_TRUE(bench_.good_within(1));
+  bench_.kernel().advance(seconds(5));
+  bench_.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) { buffer.timestamp.tv_sec -= 3; };
+
+  EXPECT_FALSE(bench_.good_within(200));
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
 
   bench_.camera().tamper = nullptr;
   EXPECT_TRUE(bench_.good_within(1));

@@ -110,6 +110,32 @@ TEST(StampJudge, ADriverThatIsWrongAllTheTimeIsNotListenedTo) {
   EXPECT_EQ(judged.mid_exposure, arrival - kSpan - kSpan / 2);
 }
 
+// What a driver holds back for three seconds is the tube of three seconds ago: no number of such
+// pictures makes them new ones.
+TEST(StampJudge, StampsThatGoOnInThePastAreNeverLeftUnheard) {
+  StampJudge judge = judge_of(1);
+  FieldTime arrival = kBegin;
+  for (int i = 0; i < 500; ++i) {  // at first of before the stream, then of long ago
+    arrival += kSpan;
+    EXPECT_TRUE(judge.judge(StampKind::kEndOfFrame, arrival - seconds(3), arrival).wrong) << i;
+  }
+  arrival += kSpan;
+
+  EXPECT_FALSE(judge.judge(StampKind::kEndOfFrame, arrival, arrival).wrong);
+}
+
+TEST(StampJudge, ADriverThatIsNotListenedToIsHeardWhenItSaysThatAPictureIsOld) {
+  StampJudge judge = judge_of(1);
+  FieldTime arrival = kBegin + seconds(10);
+  for (int i = 0; i < StampJudge::kMostWrong; ++i) {
+    arrival += kSpan;
+    static_cast<void>(judge.judge(StampKind::kEndOfFrame, FieldTime{0}, arrival));
+  }
+
+  EXPECT_TRUE(judge.judge(StampKind::kEndOfFrame, arrival - seconds(4), arrival + kSpan).wrong);
+  EXPECT_FALSE(judge.judge(StampKind::kEndOfFrame, FieldTime{0}, arrival + 2 * kSpan).wrong);
+}
+
 TEST(StampJudge, ANewStreamListensAgainAndItsTimesLieBehind) {
   StampJudge judge = judge_of(1);
   FieldTime arrival = kBegin;

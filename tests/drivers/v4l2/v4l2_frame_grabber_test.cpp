@@ -231,6 +231,30 @@ TEST(V4l2FrameGrabber, GivesEverythingBackWhenStopped) {
   EXPECT_EQ(bench.report().trouble, drivers::CameraTrouble::kNotOpen);
 }
 
+// A camera that fails for a night is opened some thousand times, and refuses now this and now that.
+TEST(V4l2FrameGrabber, AThousandOpeningsLeaveNothingBehind) {
+  CameraBench bench;
+  constexpr unsigned long kRefused[] = {VIDIOC_QUERYCAP, VIDIOC_S_FMT,    VIDIOC_REQBUFS,
+                                        VIDIOC_QUERYBUF, VIDIOC_QBUF,     VIDIOC_STREAMON,
+                                        VIDIOC_G_FMT,    VIDIOC_ENUM_FMT, VIDIOC_DQBUF};
+  for (std::size_t i = 0; i < 1000; ++i) {
+    const unsigned long request = kRefused[i % std::size(kRefused)];
+    bench.camera().results[request] = {-EIO};
+    if (request == VIDIOC_REQBUFS || request == VIDIOC_QBUF) {
+      bench.camera().results[request].assign({0, 0, -EIO});
+    }
+    if (bench.grabber().start()) {
+      static_cast<void>(bench.next_status());
+      bench.grabber().stop();
+    }
+    bench.camera().results.clear();
+    ASSERT_EQ(bench.kernel().open_devices(), 0) << i;
+    ASSERT_EQ(bench.kernel().mapped(), 0) << i;
+  }
+  ASSERT_TRUE(bench.grabber().start());
+  EXPECT_TRUE(bench.good_within(1));
+}
+
 TEST(V4l2FrameGrabber, NumbersGoOnOverARestart) {
   CameraBench bench(settings_of(Scan::kEvenFirst));
   bench.camera().fields = {V4L2_FIELD_INTERLACED};
