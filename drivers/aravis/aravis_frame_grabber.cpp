@@ -104,7 +104,8 @@ void AravisFrameGrabber::stop() {
   // What was negotiated may be more than the network takes: cameras and switches err there.
   const bool negotiated = agreed_.packet_bytes != 0 && settings_.packet_bytes == 0;
   safe_packets_ = negotiated && failed_ && !judge_.had_complete() && !safe_packets_;
-  device_->end();
+  // One that is silent is stopped at the next start, should it live.
+  device_->end(failed_);
   library_->close(*device_);
   device_ = nullptr;
   report_.trouble = AravisTrouble::kNotOpen;

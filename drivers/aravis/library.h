@@ -113,8 +113,9 @@ class Device {
   /// Starts the stream. `clock` is the system's monotonic one and outlives it.
   [[nodiscard]] virtual bool begin(const StreamPlan& plan, const hal::Clock& clock,
                                    std::string& why) = 0;
-  /// Ends it; all buffers are ours again.
-  virtual void end() = 0;
+  /// Ends it; all buffers are ours again. `gone`: the camera does not answer, and is not asked to
+  /// stop: each question to it takes seconds.
+  virtual void end(bool gone) = 0;
   /// Gives buffers back to the library that it was too quiet to take itself; between begin() and
   /// end(), of any thread but that which takes.
   virtual void look_after() = 0;

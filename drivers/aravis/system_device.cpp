@@ -20,7 +20,7 @@ SystemDevice::SystemDevice(const Functions& functions, ArvCamera* camera)
 }
 
 SystemDevice::~SystemDevice() {
-  end();
+  end(true);
   arv_->g_signal_handler_disconnect(arv_->arv_camera_get_device(camera_), control_lost_handler_);
   arv_->g_object_unref(camera_);
   sem_destroy(&news_);

@@ -53,7 +53,7 @@ class SystemDevice final : public Device {
 
   [[nodiscard]] bool begin(const StreamPlan& plan, const hal::Clock& clock,
                            std::string& why) override;
-  void end() override;
+  void end(bool gone) override;
   void look_after() override;
   [[nodiscard]] StreamCounts counts() override;
   [[nodiscard]] Taken take(std::chrono::milliseconds timeout, Picture& picture) override;

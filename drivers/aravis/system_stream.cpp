@@ -68,18 +68,19 @@ bool SystemDevice::begin(const StreamPlan& plan, const hal::Clock& clock, std::s
   Refusal refusal(*arv_);
   arv_->arv_camera_start_acquisition(camera_, refusal.out());
   if (refusal.said(why)) {
-    end();
+    end(false);
     return false;
   }
   return true;
 }
 
-void SystemDevice::end() {
+void SystemDevice::end(bool gone) {
   if (stream_ == nullptr) {
     return;
   }
-  Refusal refusal(*arv_);
-  arv_->arv_camera_stop_acquisition(camera_, refusal.out());
+  if (!gone) {
+    quieten();
+  }
   running_ = false;
   // Joins the library's thread; what is in its queues goes with it.
   arv_->g_object_unref(stream_);

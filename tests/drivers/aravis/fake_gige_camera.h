@@ -68,6 +68,7 @@ struct FakeGigeCamera {
   std::string trigger;
   std::int32_t packet = 1500;
   drivers::aravis::StreamPlan plan;
+  bool stopped = false;  ///< at the end of its last stream
 };
 
 /// The grey value that a fake camera draws: lines and columns can be told apart.

@@ -116,7 +116,7 @@ class FakeDevice final : public drivers::aravis::Device {
     }
     return camera_->starts;
   }
-  void end() override {}
+  void end(bool gone) override { camera_->stopped = !gone; }
   void look_after() override {}
   StreamCounts counts() override { return camera_->counts; }
 

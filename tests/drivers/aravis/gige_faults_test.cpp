@@ -142,6 +142,7 @@ TEST_F(GigeFaults, ACameraThatFallsSilentIsLostAfterASecond) {
   EXPECT_EQ(bench_.counters().silences, 1);
 
   const auto started = bench_.start_anew();
+  EXPECT_FALSE(bench_.camera().stopped) << "each question to it would take seconds";
   ASSERT_FALSE(started);
   EXPECT_EQ(started.error(), Error::kDisconnected);
   EXPECT_EQ(bench_.report().trouble, AravisTrouble::kNotOpen);
@@ -301,6 +302,11 @@ TEST_F(GigeFaults, PacketsThatDoNotComeThroughAreMadeSmallerAtTheNextStart) {
   bench_.camera().path = 9000;
   ASSERT_TRUE(bench_.start_anew());
   EXPECT_EQ(bench_.camera().packet, 8000) << "negotiated again: all was well";
+}
+
+TEST_F(GigeFaults, ACameraThatIsWellIsStopped) {
+  bench_.grabber().stop();
+  EXPECT_TRUE(bench_.camera().stopped);
 }
 
 TEST_F(GigeFaults, WhatTheLibraryCountsIsAddedUpOverStarts) {
