@@ -16,6 +16,8 @@ bench=(
   libcli11-dev          # the command line
   libmodbus-dev         # the robot's link
   libgpiod-dev          # a lamp on GPIO lines
+  libaravis-dev         # cameras of GigE Vision and USB3 Vision
+  libglib2.0-dev        # what its header stands on
 )
 test=(
   libgtest-dev          # tests on the PC

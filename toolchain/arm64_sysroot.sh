@@ -18,6 +18,8 @@ packages=(
   libmodbus5           # drivers/modbus: a shared library
   libmodbus-dev        # and its header
   libgpiod-dev         # drivers/gpio
+  libaravis-dev        # drivers/aravis: its header alone, the library is loaded at run time
+  libglib2.0-dev       # headers that that one includes
   libcli11-dev         # board/bench
 )
 

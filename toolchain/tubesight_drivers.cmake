@@ -9,7 +9,7 @@
 #   tubesight_add_needed_drivers()          # each drivers/<name>, after all that need some
 #
 #   tubesight_find_package(<package> DEBIAN <name> [arguments of find_package])
-#   tubesight_find_header(<VARIABLE> <header> DEBIAN <name>)
+#   tubesight_find_header(<VARIABLE> <header> DEBIAN <name> [arguments of find_path])
 #
 #     A library or the folder of a header; where there is none, an error that names Debian's package
 #     and who needs it.
@@ -104,7 +104,7 @@ endmacro()
 
 function(tubesight_find_header variable header)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "DEBIAN" "")
-  find_path(${variable} ${header})
+  find_path(${variable} ${header} ${arg_UNPARSED_ARGUMENTS})
   if(NOT ${variable})
     _tubesight_missing_library(${header} ${arg_DEBIAN})
   endif()

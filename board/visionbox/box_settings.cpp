@@ -27,7 +27,7 @@ using drivers::TableReader;
 
 constexpr std::array<std::string_view, 6> kBoxTables = {"source", "control", "realtime",
                                                         "link",   "record",  "lamp"};
-constexpr std::array<std::string_view, 3> kSourceKinds = {"replay", "simulated", "v4l2"};
+constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
 constexpr std::array<std::string_view, 2> kAtEnd = {"loop", "end"};
@@ -78,17 +78,38 @@ void read_source(const SettingsDocument& document, TableReader& table, SourceSet
   std::size_t kind = 0;
   if (!table.word("kind", kSourceKinds, kind)) {
     read_played(document, table, source);
+    ignore_keys(table, kCameraKeys);
     ignore_keys(table, kV4l2Keys);
+    ignore_keys(table, kAravisKeys);
     return;
   }
+  constexpr const char* kOfAnother = "of another kind of source";
   source.kind = static_cast<SourceKind>(kind);
   if (source.kind == SourceKind::kV4l2) {
     read_v4l2(table, source.v4l2);
-    refuse_keys(table, kPlayedKeys, "of another kind of source");
-    return;
+  } else {
+    refuse_keys(table, kV4l2Keys, kOfAnother);
   }
-  read_played(document, table, source);
-  refuse_keys(table, kV4l2Keys, "of another kind of source");
+  if (source.kind == SourceKind::kAravis) {
+    read_aravis(table, source.aravis);
+  } else {
+    refuse_keys(table, kAravisKeys, kOfAnother);
+  }
+  if (is_camera(source.kind)) {
+    refuse_keys(table, kPlayedKeys, kOfAnother);
+  } else {
+    read_played(document, table, source);
+    refuse_keys(table, kCameraKeys, kOfAnother);
+  }
+}
+
+/// What a camera has to deliver is what the session was told of it.
+template <typename Settings>
+void tell(const drivers::SessionFile& session, Settings& camera) {
+  camera.width_px = session.settings.camera.width_px;
+  camera.height_px = session.settings.camera.height_px;
+  camera.scan = session.settings.camera.scan;
+  camera.serial = session.camera_quality.serial;
 }
 
 void read_control(const SettingsDocument& document, TableReader& table, std::string& socket) {
@@ -139,19 +160,15 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    read_lamp(table, {box.source.kind == SourceKind::kV4l2, box.link.kind != LinkKind::kNone},
-              box.lamp);
+    read_lamp(table, {is_camera(box.source.kind), box.link.kind != LinkKind::kNone}, box.lamp);
   });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;
   }
   drivers::read_session(document, kBoxNeeds, box.session);
-  const core::CameraSettings& camera = box.session.settings.camera;
-  box.source.v4l2.width_px = camera.width_px;
-  box.source.v4l2.height_px = camera.height_px;
-  box.source.v4l2.scan = camera.scan;
-  box.source.v4l2.serial = box.session.camera_quality.serial;
+  tell(box.session, box.source.v4l2);
+  tell(box.session, box.source.aravis);
   if (document.problems().empty() &&
       !std::make_unique<core::session::Session<core::FixedPoint>>()->configure(
           box.session.settings)) {

@@ -9,6 +9,7 @@
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
 #include "core/base/result.h"
+#include "drivers/aravis/aravis_settings.h"
 #include "drivers/files/messages.h"
 #include "drivers/scenario/scenario_file.h"
 #include "drivers/settings/session_settings.h"
@@ -18,21 +19,27 @@
 namespace tubesight::board {
 
 /// What the box watches; the order of the words of `kind`.
-enum class SourceKind : std::uint8_t { kReplay, kSimulated, kV4l2 };
+enum class SourceKind : std::uint8_t { kReplay, kSimulated, kV4l2, kAravis };
 
 /// The word of a kind.
 [[nodiscard]] std::string_view name_of(SourceKind kind);
+
+/// Whether it is a camera, and not something that is played.
+[[nodiscard]] constexpr bool is_camera(SourceKind kind) {
+  return kind == SourceKind::kV4l2 || kind == SourceKind::kAravis;
+}
 
 /// The table `[source]`. Paths are as they can be opened: relative ones were resolved from the
 /// folder of the file that names them.
 struct SourceSettings {
   SourceKind kind = SourceKind::kReplay;
-  std::string recording;       ///< of a replay
-  std::string scenario;        ///< of a simulation
-  bool loop = true;            ///< begin anew at the end
-  bool script = false;         ///< play the robot and the operator that are written down, too
-  bool in_real_time = true;    ///< of what is played; not in the file, for tests
-  drivers::V4l2Settings v4l2;  ///< of a camera, with what the session says of it
+  std::string recording;           ///< of a replay
+  std::string scenario;            ///< of a simulation
+  bool loop = true;                ///< begin anew at the end
+  bool script = false;             ///< play the robot and the operator that are written down, too
+  bool in_real_time = true;        ///< of what is played; not in the file, for tests
+  drivers::V4l2Settings v4l2;      ///< of a camera, with what the session says of it
+  drivers::AravisSettings aravis;  ///< the same
 };
 
 /// Everything that the box is started with. Some 900 KB: static or heap, never on a stack.

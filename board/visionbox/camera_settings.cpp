@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <arpa/inet.h>
+
 namespace tubesight::board {
 namespace {
 
@@ -16,6 +18,15 @@ constexpr std::array<std::string_view, 4> kFields = {"any", "interlaced", "alter
 constexpr std::array<std::string_view, 2> kStandards = {"NTSC", "PAL"};
 constexpr drivers::NumberRange kFieldsPerS{1.0, 1000.0, " a second"};
 constexpr drivers::NumberRange kExposure{0.001, 1000.0, " ms"};
+
+constexpr std::array<std::string_view, 7> kMonoFormats = {
+    "Mono8", "Mono10", "Mono12", "Mono10Packed", "Mono12Packed", "Mono10p", "Mono12p"};
+constexpr drivers::WholeRange kSensor{0, 65'535};
+constexpr drivers::WholeRange kBinning{1, 8};
+constexpr drivers::NumberRange kGain{0.0, 1000.0, ""};
+/// From the least that every path takes to the most that a packet of UDP holds.
+constexpr drivers::WholeRange kPacket{576, 65'535};
+constexpr drivers::NumberRange kReadout{0.001, 1000.0, " ms"};
 
 void read_device(TableReader& table, std::string& device) {
   if (!table.text("device", device)) {
@@ -30,6 +41,19 @@ void read_device(TableReader& table, std::string& device) {
                    "'" + device +
                        "' is another camera after the next start, expected serial:NUMBER, "
                        "bus:PATH or a path below /dev/v4l/by-path or /dev/v4l/by-id");
+  }
+}
+
+void read_address(TableReader& table, std::string& device) {
+  if (!table.text("device", device)) {
+    return;
+  }
+  constexpr std::string_view kAddress = "address:";
+  in_addr address{};
+  const bool by_address = device.starts_with(kAddress) &&
+                          inet_pton(AF_INET, device.substr(kAddress.size()).c_str(), &address) == 1;
+  if (!by_address && !(device.starts_with("serial:") && device.size() > 7)) {
+    table.complain("device", "'" + device + "', expected address:FOUR.NUMBERS or serial:NUMBER");
   }
 }
 
@@ -81,6 +105,32 @@ void read_v4l2(TableReader& table, drivers::V4l2Settings& camera) {
   for (const std::string_view key : {"format", "standard"}) {
     table.ignore(key);
   }
+}
+
+void read_aravis(TableReader& table, drivers::AravisSettings& camera) {
+  read_address(table, camera.device);
+  std::size_t index = 0;
+  if (table.has("format") && table.optional_word("format", kMonoFormats, index)) {
+    camera.format = kMonoFormats[index];
+  }
+  table.ignore("format");
+  table.optional_number("fields_per_s", kFieldsPerS, camera.fields_per_s);
+  table.optional_number("exposure_ms", kExposure, camera.exposure_ms);
+  table.optional_whole("left_px", kSensor, camera.left_px);
+  table.optional_whole("top_px", kSensor, camera.top_px);
+  table.optional_whole("binning", kBinning, camera.binning);
+  double gain = 0.0;
+  if (table.has("gain") && table.optional_number("gain", kGain, gain)) {
+    camera.gain = gain;
+  }
+  table.ignore("gain");
+  table.optional_text("trigger", camera.trigger);
+  if (!camera.trigger.empty() && !table.has("fields_per_s")) {
+    table.complain("trigger", "a rate that nobody says, expected fields_per_s beside it");
+  }
+  table.optional_whole("packet_bytes", kPacket, camera.packet_bytes);
+  table.optional_switch("resend", camera.resend);
+  table.optional_number("readout_ms", kReadout, camera.readout_ms);
 }
 
 }  // namespace tubesight::board

@@ -14,7 +14,7 @@ using core::Unexpected;
 
 std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::OperatorStation& station,
                                          const VisionBox::Tell& tell) {
-  if (settings.source.kind == SourceKind::kV4l2) {
+  if (is_camera(settings.source.kind)) {
     return std::make_unique<CameraWorld>(settings, station, tell);
   }
   return std::make_unique<PlayedWorld>(settings, station, settings.link.kind == LinkKind::kNone,

@@ -70,6 +70,8 @@ DRIVER_STD = CORE_STD | set("""bitset cctype cerrno charconv cinttypes climits c
     system_error thread unordered_map unordered_set vector""".split())
 POSIX = re.compile(r"^(errno|fcntl|poll|sched|signal|unistd|sys/[a-z_]+)\.h$")
 DRIVER_LIBRARY = {
+    # Its library is loaded when it is needed; the address of ours is asked of a socket.
+    "drivers/aravis": re.compile(r"^((arpa/inet|arv|dlfcn|netinet/in|semaphore)\.h|ctime)$"),
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
     "drivers/gpio": re.compile(r"^gpiod\.h$"),
     "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),

@@ -1,42 +1,13 @@
 #include "board/visionbox/box_settings.h"
 
-#include <memory>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/support/temporary_folder.h"
+#include "tests/board/visionbox/box_settings_bench.h"
 
 namespace tubesight::board {
 namespace {
-
-class BoxSettingsTest : public ::testing::Test {
- protected:
-  BoxSettingsTest() { folder_.write("recording.y4m", "not looked into"); }
-
-  /// A box that includes the shipped session, with this text behind.
-  bool load(const std::string& text) {
-    messages_.clear();
-    folder_.write("box.toml", std::string("include = [\"") + TUBESIGHT_TEST_DATA_DIR +
-                                  "/recordings/square_flush/session.toml\"]\n" + text);
-    return static_cast<bool>(load_box_settings(folder_.path("box.toml"), *box_, messages_));
-  }
-  bool told(const std::string& part) const {
-    for (const std::string& message : messages_) {
-      if (message.find(part) != std::string::npos) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  support::TemporaryFolder folder_;
-  std::unique_ptr<BoxSettings> box_ = std::make_unique<BoxSettings>();
-  drivers::Messages messages_;
-};
-
-constexpr const char* kSource = "[source]\nkind = \"replay\"\nrecording = \"recording.y4m\"\n";
 
 TEST_F(BoxSettingsTest, LittleIsEnough) {
   ASSERT_TRUE(load(kSource)) << messages_.front();
@@ -126,80 +97,6 @@ TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
   EXPECT_TRUE(told("box.toml:15: link.kind: the text 'pigeon', expected \"none\" or \"modbus\""));
   EXPECT_TRUE(told("box.toml:16: [recorder]: unknown table"));
   EXPECT_EQ(messages_.size(), 11U);
-}
-
-constexpr const char* kCamera = "[source]\nkind = \"v4l2\"\ndevice = \"serial:12\"\n";
-
-TEST_F(BoxSettingsTest, ACameraNeedsItsNameAlone) {
-  ASSERT_TRUE(load(kCamera)) << messages_.front();
-
-  EXPECT_EQ(box_->source.kind, SourceKind::kV4l2);
-  const drivers::V4l2Settings& camera = box_->source.v4l2;
-  EXPECT_EQ(camera.device, "serial:12");
-  EXPECT_EQ(camera.format, "");
-  EXPECT_EQ(camera.fields, drivers::FieldLayout::kAny);
-  EXPECT_EQ(camera.width_px, box_->told().camera.width_px) << "of the session";
-  EXPECT_EQ(camera.height_px, box_->told().camera.height_px);
-  EXPECT_EQ(camera.scan, box_->told().camera.scan);
-  EXPECT_EQ(camera.serial, "") << "the calibration names none";
-}
-
-TEST_F(BoxSettingsTest, EveryKeyOfACameraIsRead) {
-  ASSERT_TRUE(load(std::string(kCamera) +
-                   "format = \"Y10\"\nfields = \"alternate\"\ninput = \"S-Video\"\n"
-                   "standard = \"PAL\"\nfields_per_s = 50\nexposure_ms = 2.5\n"
-                   "controls = [\"Gain = 20\", \" Exposure Mode=Manual Mode \"]\n"
-                   "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\n"))
-      << messages_.front();
-
-  const drivers::V4l2Settings& camera = box_->source.v4l2;
-  EXPECT_EQ(camera.format, "Y10");
-  EXPECT_EQ(camera.fields, drivers::FieldLayout::kAlternate);
-  EXPECT_EQ(camera.input, "S-Video");
-  EXPECT_EQ(camera.standard, "PAL");
-  EXPECT_EQ(camera.fields_per_s, 50.0);
-  EXPECT_EQ(camera.exposure_ms, 2.5);
-  ASSERT_EQ(camera.controls.size(), 2u);
-  EXPECT_EQ(camera.controls[0].name, "Gain");
-  EXPECT_EQ(camera.controls[0].value, "20");
-  EXPECT_EQ(camera.controls[1].name, "Exposure Mode");
-  EXPECT_EQ(camera.controls[1].value, "Manual Mode");
-  EXPECT_EQ(camera.serial, "4711") << "of the calibration";
-}
-
-TEST_F(BoxSettingsTest, ACameraIsNamedByWhatStays) {
-  for (const char* name : {"/dev/video0", "serial:", "bus:", "video0", ""}) {
-    EXPECT_FALSE(load(std::string("[source]\nkind = \"v4l2\"\ndevice = \"") + name + "\"\n"));
-    EXPECT_TRUE(told("source.device: '" + std::string(name) +
-                     "' is another camera after the next start, expected serial:NUMBER"));
-  }
-  for (const char* name : {"/dev/v4l/by-path/a", "/dev/v4l/by-id/b", "bus:usb-1"}) {
-    EXPECT_TRUE(load(std::string("[source]\nkind = \"v4l2\"\ndevice = \"") + name + "\"\n"));
-  }
-}
-
-TEST_F(BoxSettingsTest, MistakesOfACameraAreTold) {
-  EXPECT_FALSE(
-      load("[source]\nkind = \"v4l2\"\nformat = \"MJPG\"\nfields = \"odd\"\n"
-           "standard = \"SECAM\"\nfields_per_s = 0\nexposure_ms = -1\n"
-           "controls = [\"Gain\"]\nrecording = \"recording.y4m\"\nat_end = \"end\"\n"));
-
-  EXPECT_TRUE(told("source.device: "));
-  EXPECT_TRUE(told("box.toml:4: source.format: "));
-  EXPECT_TRUE(told("box.toml:5: source.fields: "));
-  EXPECT_TRUE(told("box.toml:6: source.standard: "));
-  EXPECT_TRUE(told("box.toml:7: source.fields_per_s: "));
-  EXPECT_TRUE(told("box.toml:8: source.exposure_ms: "));
-  EXPECT_TRUE(told("box.toml:9: source.controls: 'Gain', expected \"NAME = VALUE\""));
-  EXPECT_TRUE(told("box.toml:10: source.recording: of another kind of source"));
-  EXPECT_TRUE(told("box.toml:11: source.at_end: of another kind of source"));
-  EXPECT_EQ(messages_.size(), 9U);
-}
-
-TEST_F(BoxSettingsTest, APlayedSourceHasNoKeysOfACamera) {
-  EXPECT_FALSE(load(std::string(kSource) + "device = \"serial:12\"\n"));
-
-  EXPECT_TRUE(told("source.device: of another kind of source, expected it left out"));
 }
 
 TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
