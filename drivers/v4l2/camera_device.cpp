@@ -44,15 +44,15 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
     return refuse(Error::kIo, message,
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
-  TUBESIGHT_TRY(check(settings, node, message));
   agreed_ = {};
+  TUBESIGHT_TRY(check(settings, node, message));
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
   // A driver that knows nothing of it never says that the source has changed.
   v4l2_event_subscription change{};
   change.type = V4L2_EVENT_SOURCE_CHANGE;
   change.id = agreed_.input;
   static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
-  return ring_.open(descriptor_, agreed_.bytes, message);
+  return ring_.open(descriptor_, agreed_.api, agreed_.bytes, message);
 }
 
 Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string& node,
@@ -61,12 +61,12 @@ Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string
   if (kernel_->ioctl(descriptor_, VIDIOC_QUERYCAP, &can) != 0) {
     return refuse(Error::kUnsupported, message, "is no camera");
   }
-  const std::uint32_t caps =
-      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
-  if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0 || (caps & V4L2_CAP_STREAMING) == 0) {
+  const auto api = capture_api_of(can);
+  if (!api || (caps_of(can) & V4L2_CAP_STREAMING) == 0) {
     return refuse(Error::kUnsupported, message,
                   "is no camera, expected one that streams pictures of one plane");
   }
+  agreed_.api = *api;
   const std::string serial = serial_of(*kernel_, node);
   if (!settings.serial.empty() && serial != settings.serial) {
     return refuse(Error::kUnsupported, message,
