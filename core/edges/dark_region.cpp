@@ -14,8 +14,11 @@ constexpr std::int32_t kMostFollowed = 240;
 
 constexpr int kAttempts = 4;
 
+/// Positions are readings: every `step`-th pixel or line, `offset` being the first.
 struct Walk {
   EdgePath path;
+  std::int32_t step = 1;
+  std::int32_t offset = 0;
   std::int32_t from = 0;
   std::int32_t limit = 0;  ///< positions 0 .. limit - 1 exist
   std::int32_t taps = 0;
@@ -59,6 +62,19 @@ Edge edge_outwards(const Walk& walk, std::int32_t direction, DynamicThreshold& t
   return {};
 }
 
+/// The readings of a path of `size` pixels or lines that pass `from`.
+Walk walk_along(const EdgePath& path, std::int32_t step, std::int32_t from, std::int32_t size) {
+  const std::int32_t offset = from % step;
+  Walk walk;
+  walk.path = every(path, step, offset);
+  walk.step = step;
+  walk.offset = offset;
+  walk.from = from / step;
+  walk.limit = (size - offset + step - 1) / step;
+  return walk;
+}
+
+/// In pixels or lines.
 struct Span {
   bool found = false;
   std::int32_t low_q16 = 0;
@@ -73,17 +89,25 @@ Span span_around(const Walk& walk, DynamicThreshold& threshold) {
     return {};
   }
   const Edge high = edge_outwards(walk, 1, threshold);
-  return {high.found, low.position_q16, high.position_q16};
+  const auto place_q16 = [&walk](const Edge& edge) {
+    return edge.position_q16 * walk.step + walk.offset * 65536;
+  };
+  return {high.found, place_q16(low), place_q16(high)};
 }
 
 }  // namespace
 
 DarkRegion find_dark_region(const FieldView& field, std::int32_t u_px, std::int32_t v_px,
-                            std::int32_t reach_px, DynamicThreshold& threshold) {
+                            std::int32_t reach_px, DynamicThreshold& threshold,
+                            std::int32_t reading_step_px) {
   const std::int32_t step = field.line_step;
+  const std::int32_t lines_a_reading = std::max(reading_step_px / step, 1);
   const auto column_walk = [&](std::int32_t u, std::int32_t line) {
     u = std::clamp(u, 2, field.width_px - 3);
-    return Walk{vertical_path(field, u), line, field.lines, kVerticalTaps, reach_px / step};
+    Walk walk = walk_along(vertical_path(field, u), lines_a_reading, line, field.lines);
+    walk.taps = kVerticalTaps;
+    walk.reach = reach_px / (step * lines_a_reading);
+    return walk;
   };
   const std::int32_t start_line = (v_px - field.first_line) / step;
   if (u_px < 0 || u_px >= field.width_px || start_line < 0 || start_line >= field.lines ||
@@ -95,8 +119,10 @@ DarkRegion find_dark_region(const FieldView& field, std::int32_t u_px, std::int3
     return {};
   }
   const std::int32_t line = std::clamp(vertical.middle(), 1, field.lines - 2);
-  const Span horizontal = span_around(
-      {horizontal_path(field, line), u_px, field.width_px, kHorizontalTaps, reach_px}, threshold);
+  Walk along = walk_along(horizontal_path(field, line), reading_step_px, u_px, field.width_px);
+  along.taps = kHorizontalTaps;
+  along.reach = reach_px / reading_step_px;
+  const Span horizontal = span_around(along, threshold);
   if (!horizontal.found) {
     return {};
   }

@@ -25,12 +25,14 @@ struct DarkRegion {
 /// bisected, the vertical one done twice [Fallon 5.1.1, 6.2.1].
 ///
 /// `u_px`, `v_px`: full-frame, within the dark. Searches go `reach_px` at most to each side and
-/// stay within the field. The threshold follows the edges found; each edge gets two more tries at
-/// half the threshold, started nearer to the point. Not found when one of the four edges is
-/// missing. Costs some 100 instructions a step walked.
+/// stay within the field. They read every `reading_step_px`-th pixel or line: in a picture so much
+/// larger the same rises, at the same cost. The threshold follows the edges found; each edge gets
+/// two more tries at half the threshold, started nearer to the point. Not found when one of the
+/// four edges is missing. Costs some 100 instructions a step walked.
 [[nodiscard]] DarkRegion find_dark_region(const FieldView& field, std::int32_t u_px,
                                           std::int32_t v_px, std::int32_t reach_px,
-                                          DynamicThreshold& threshold);
+                                          DynamicThreshold& threshold,
+                                          std::int32_t reading_step_px = 1);
 
 /// The mean grey value of the 16-pixel cross-hair at a point: four pixels along each arm
 /// [Fallon 6.2], spaced so that an arm spans `reach_u_px` and `reach_v_px`. Arms that leave the

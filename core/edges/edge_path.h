@@ -25,6 +25,11 @@ struct EdgePath {
   }
 };
 
+/// Every `step`-th position of a path, of which `offset` is the first.
+[[nodiscard]] inline EdgePath every(const EdgePath& path, std::int32_t step, std::int32_t offset) {
+  return {path.origin + offset * path.step, path.step * step, path.side};
+}
+
 /// The path along line `line` of the field, positions are columns. Needs 1 <= line < lines - 1.
 [[nodiscard]] inline EdgePath horizontal_path(const FieldView& field, std::int32_t line) {
   return {field.pixels + static_cast<std::ptrdiff_t>(line) * field.stride_px, 1, field.stride_px};

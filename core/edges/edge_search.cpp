@@ -1,6 +1,7 @@
 #include "core/edges/edge_search.h"
 
 #include <algorithm>
+#include <type_traits>
 
 namespace tubesight::core::edges {
 namespace {
@@ -8,8 +9,8 @@ namespace {
 // A rise has passed its peak when the gradient did not grow for so many steps; one is noise.
 constexpr std::int32_t kDecliningSteps = 2;
 
-// How a walk reads pixels. The usual walk along a line has its offsets known to the compiler, which
-// halves its cost.
+// How a walk reads pixels. The usual walks along a line have their offsets known to the compiler,
+// which halves their cost.
 struct AnySteps {
   std::ptrdiff_t side = 0;
   std::ptrdiff_t step = 1;  // outwards
@@ -17,7 +18,7 @@ struct AnySteps {
 };
 
 template <int kStep, int kTaps>
-struct UnitSteps {
+struct KnownSteps {
   std::ptrdiff_t side = 0;
   static constexpr std::ptrdiff_t step = kStep;
   static constexpr std::int32_t taps = kTaps;
@@ -71,19 +72,31 @@ std::int32_t gradient(const EdgePath& path, std::int32_t position, std::int32_t 
 
 EdgePeak find_edge(const EdgePath& path, const SearchRange& range) {
   const std::uint8_t* first = path.origin + range.first * path.step;
+  const std::ptrdiff_t step = path.step * range.direction;
+  const auto any = [&] { return walk(AnySteps{path.side, step, range.taps}, first, range); };
+  const auto known = [&]<int kStep>() {
+    return walk(KnownSteps<kStep, kHorizontalTaps>{path.side}, first, range);
+  };
   EdgePeak peak;
-  if (path.step == 1 && range.taps == kHorizontalTaps) {
-    peak = range.direction > 0 ? walk(UnitSteps<1, kHorizontalTaps>{path.side}, first, range)
-                               : walk(UnitSteps<-1, kHorizontalTaps>{path.side}, first, range);
-  } else {
-    peak = walk(AnySteps{path.side, path.step * range.direction, range.taps}, first, range);
+  switch (range.taps == kHorizontalTaps ? step : 0) {
+    case 1: peak = known.template operator()<1>(); break;
+    case -1: peak = known.template operator()<-1>(); break;
+    case 2: peak = known.template operator()<2>(); break;
+    case -2: peak = known.template operator()<-2>(); break;
+    case 3: peak = known.template operator()<3>(); break;
+    case -3: peak = known.template operator()<-3>(); break;
+    default: peak = any(); break;
   }
   peak.position = range.first + range.direction * peak.position;
   return peak;
 }
 
-Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
-                 const EdgeReach& reach, std::int32_t least_contrast) {
+namespace {
+
+// `stride` is a number, or 1 as a constant.
+template <typename Stride>
+Edge refine(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
+            const EdgeReach& reach, std::int32_t least_contrast, Stride stride) {
   const std::ptrdiff_t step = path.step * direction;
   const std::uint8_t* p = path.origin + peak.position * path.step;
   const auto at = [p, step](std::int32_t offset) { return std::int32_t{p[offset * step]}; };
@@ -91,7 +104,7 @@ Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direct
   // Levels in halves of a grey value: two pixels each.
   const std::int32_t dark2 = at(-reach.dark) + at(-reach.dark - 1);
   std::int32_t bright2 = 0;
-  for (std::int32_t i = 1; i <= reach.bright; ++i) {
+  for (std::int32_t i = 1; i <= reach.bright; i += stride) {
     bright2 = std::max(bright2, at(i) + at(i + 1));
   }
   const std::int32_t contrast2 = bright2 - dark2;
@@ -100,21 +113,40 @@ Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direct
   }
   const std::int32_t middle4 = dark2 + bright2;
   std::int32_t offset = -reach.dark;
-  std::int32_t before = 4 * at(offset);
-  if (before >= middle4) {
+  if (4 * at(offset) >= middle4) {
     return {};  // bright where the inside of the tube should be
   }
-  while (offset <= reach.bright + 1) {
-    const std::int32_t here = 4 * at(offset + 1);
-    if (here >= middle4) {
-      const std::int32_t share_q16 = ((middle4 - before) * 65536) / (here - before);
-      const std::int32_t along_q16 = (offset * 65536) + share_q16;
-      return {true, peak.position * 65536 + direction * along_q16, contrast2 / 2};
+  while (4 * at(offset + stride) < middle4) {
+    offset += stride;
+    if (offset > reach.bright + 1) {
+      return {};
     }
+  }
+  // Within this stride: the first two neighbours that the middle lies between.
+  std::int32_t before = 4 * at(offset);
+  std::int32_t here = 4 * at(offset + 1);
+  while (here < middle4) {
     before = here;
     ++offset;
+    here = 4 * at(offset + 1);
   }
-  return {};
+  const std::int32_t share_q16 = ((middle4 - before) * 65536) / (here - before);
+  const std::int32_t along_q16 = (offset * 65536) + share_q16;
+  return {true, peak.position * 65536 + direction * along_q16, contrast2 / 2};
+}
+
+}  // namespace
+
+Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
+                 const EdgeReach& reach, std::int32_t least_contrast) {
+  constexpr std::integral_constant<std::int32_t, 1> kEach;
+  return refine(path, peak, direction, reach, least_contrast, kEach);
+}
+
+Edge refine_edge_coarsely(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
+                          const EdgeReach& reach, std::int32_t stride,
+                          std::int32_t least_contrast) {
+  return refine(path, peak, direction, reach, least_contrast, stride);
 }
 
 Edge weigh_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,

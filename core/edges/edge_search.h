@@ -59,10 +59,16 @@ struct EdgeReach {
 /// The dark level is that of the tube's inside; the bright one the brightest two neighbouring
 /// pixels shortly behind the rise, so that the narrow bright rim of a fillet weld counts and not
 /// the shadow behind it. Not found when the path is not dark where it should be, or with less than
-/// `least_contrast` grey levels. Reads positions `dark` + 1 behind to `bright` + 1 ahead of the
+/// `least_contrast` grey levels. Reads positions `dark` + 1 behind to `bright` + 2 ahead of the
 /// peak.
 [[nodiscard]] Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
                                const EdgeReach& reach, std::int32_t least_contrast);
+
+/// refine_edge() that reads every `stride`-th position alone, but for those around the crossing.
+/// Reads positions `dark` + 1 behind to `bright` + 1 + `stride` ahead of the peak.
+[[nodiscard]] Edge refine_edge_coarsely(const EdgePath& path, const EdgePeak& peak,
+                                        std::int32_t direction, const EdgeReach& reach,
+                                        std::int32_t stride, std::int32_t least_contrast);
 
 /// Places the edge by how much of the three positions around the peak is dark: for paths that step
 /// over the rise in one or two pixels, where interpolation would follow the pixels' places. Half a

@@ -17,8 +17,8 @@ namespace tubesight::core::rendering {
 /// of them a line meets.
 class DiscList {
  public:
-  /// A 1024 by 1024 picture shows some 2,000 tube-ends larger than a pixel; the plate beyond is
-  /// dark.
+  /// A picture shows some 2,000 tube-ends larger than a pixel, whatever its own size: the plate
+  /// beyond is dark.
   static constexpr std::int32_t kMaxDiscs = 8192;
   static constexpr std::int32_t kMaxTubes = 4096;
 

@@ -72,6 +72,14 @@ MeasurementBounds bounds_of(const TrackingModel<S>& model) {
   return bounds;
 }
 
+// Readings of a search for this rim: coarse ones need as many of them across the rim as there are
+// pixels across a small one.
+template <Scalar S>
+std::int32_t reading_step(const TrackingModel<S>& model, const Box& box) {
+  constexpr std::int32_t kReadings = 10;
+  return std::clamp(box.half_v / kReadings, 1, model.reading_step_px);
+}
+
 // A site whose rim lies in the window, and is large enough to be measured.
 template <Scalar S>
 struct SiteInView {
@@ -100,12 +108,14 @@ std::optional<SiteInView<S>> in_view(const TrackingModel<S>& model, const SheetP
 // What a tube-end that was not measured says about a plug.
 template <Scalar S>
 void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
-               const Box& box, std::int32_t range_px, Finding finding, FieldRecord<S>& record) {
+               const Box& box, const MeasurementBounds& look, Finding finding,
+               FieldRecord<S>& record) {
   bool plug = finding == Finding::kBright;
   if (finding == Finding::kDisagrees) {
     edges::DynamicThreshold threshold = record.light.edge_threshold;
-    plug = is_plug_hole(
-        edges::find_dark_region(field, box.u, box.v, box.half_u + range_px, threshold), box);
+    plug = is_plug_hole(edges::find_dark_region(field, box.u, box.v, box.half_u + look.range_px,
+                                                threshold, look.step_px),
+                        box);
   }
   if (plug) {
     record.plugs.saw_plug(address);
@@ -146,6 +156,7 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     Finding finding = Finding::kBright;
     if (inside <= light.region_threshold) {
       bounds.range_px = std::min(look.range_px, std::max(3, box.half_u / 2));
+      bounds.step_px = reading_step<S>(model, box);
       finding = measure_tube<S>(field, rim, bounds, light.edge_threshold, tube);
     }
     if (finding == Finding::kMeasured) {
@@ -163,7 +174,10 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       static_cast<void>(record.sites.bright.try_push_back(candidate.address));
     }
     count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
-    note_plug<S>(field, candidate.address, rim.center, box, look.range_px, finding, record);
+    MeasurementBounds around = bounds;
+    around.range_px = look.range_px;
+    around.step_px = reading_step<S>(model, box);
+    note_plug<S>(field, candidate.address, rim.center, box, around, finding, record);
   }
   return count;
 }
@@ -175,7 +189,7 @@ void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const 
     return;
   }
   const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
-  const MeasurementBounds bounds = bounds_of<S>(model);
+  MeasurementBounds bounds = bounds_of<S>(model);
   for (const Candidate<S>& site : closed) {
     const auto seen = in_view<S>(model, pose, spokes, site);
     if (!seen) {
@@ -188,6 +202,7 @@ void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const 
       continue;
     }
     edges::DynamicThreshold threshold = light.edge_threshold;
+    bounds.step_px = reading_step<S>(model, box);
     TubeMeasurement<S> tube;
     tube.predicted_px = rim.center;
     if (measure_tube<S>(field, rim, bounds, threshold, tube) == Finding::kMeasured) {
@@ -220,7 +235,8 @@ std::optional<Vector2<Mm<S>>> shift_of(const TrackingModel<S>& model, const Fiel
     }
     edges::DynamicThreshold threshold = light.edge_threshold;
     const auto region =
-        edges::find_dark_region(field, u, v, std::max(box.half_u, box.half_v) * 2 + 4, threshold);
+        edges::find_dark_region(field, u, v, std::max(box.half_u, box.half_v) * 2 + 4, threshold,
+                                reading_step<S>(model, box));
     if (!region.found) {
       continue;
     }

@@ -12,9 +12,12 @@ using edges::EdgePath;
 using edges::EdgePeak;
 using edges::EdgeReach;
 
-// A search along a path: where the rim is expected and how to read it.
+// A search along a path: where the rim is expected and how to read it. Positions are readings:
+// every `step`-th pixel or line, `offset` being the first.
 struct Search {
   EdgePath path;
+  std::int32_t step = 1;
+  std::int32_t offset = 0;
   std::int32_t expected = 0;   // nearest position
   std::int32_t direction = 1;  // outwards
   std::int32_t range = 0;
@@ -32,6 +35,18 @@ bool stays_inside(const Search& s) {
   return s.expected - most >= 0 && s.expected + most < s.positions;
 }
 
+// The edge at a peak of readings that pixels or lines lie between.
+Edge edge_between(const Search& s, const EdgePeak& peak, std::int32_t least_contrast) {
+  const EdgePath each{s.path.origin, s.path.step / s.step, s.path.side};
+  const EdgePeak there{true, peak.position * s.step, peak.gradient};
+  const EdgeReach reach{s.reach.dark * s.step, s.reach.bright * s.step};
+  Edge edge = s.weigh ? edges::weigh_edge(each, there, s.direction, least_contrast)
+                      : edges::refine_edge_coarsely(each, there, s.direction, reach, s.step,
+                                                    least_contrast);
+  edge.position_q16 += s.offset * 65536;
+  return edge;
+}
+
 // The search is bounded so closely that no other tube-end's edge can be met: a difficult edge,
 // below the threshold, is taken at half of it in the same walk. Else it is tried again at half of
 // that with the start moved inwards.
@@ -44,6 +59,9 @@ Edge search_outwards(const Search& s, std::int32_t least_contrast,
                                   inwards + s.range + 1, s.taps, threshold.for_taps(s.taps) / 2});
     if (peak.found) {
       threshold.follow(peak.gradient, s.taps);
+      if (s.step > 1) {
+        return edge_between(s, peak, least_contrast);
+      }
       return s.weigh ? edges::weigh_edge(s.path, peak, s.direction, least_contrast)
                      : edges::refine_edge(s.path, peak, s.direction, s.reach, least_contrast);
     }
@@ -88,6 +106,19 @@ Crossing<S> crossing(const Lane<S>& rim, Px<S> lane) {
   const auto moved = product(angle, rim.across_tangent) - product(bend, rim.across_outward);
   return {times(convert<M>(rim.across_tangent), per_lane),
           convert<M>(rim.across) + narrow<M>(moved)};
+}
+
+// Reads every `step`-th pixel or line alone; one of these readings is where the rim is expected.
+void read_every(std::int32_t step, Search& s) {
+  if (step <= 1 || s.expected < 0) {
+    return;
+  }
+  s.step = step;
+  s.offset = s.expected % step;
+  s.path = edges::every(s.path, step, s.offset);
+  s.expected /= step;
+  s.positions = (s.positions - s.offset + step - 1) / step;
+  s.range = (s.range + step - 1) / step;
 }
 
 // The search along the field's line nearest to the rim point.
@@ -148,8 +179,8 @@ RimMiss search_rim(const FieldView& field, const Vector2<Px<S>>& point,
   const P run = absolute(tangent.x);
   const P rise = absolute(tangent.y);
   const std::int32_t half_chord = rounded(absolute(outward.x));
-  const bool along_line =
-      rise + rise + rise >= run && 2 * half_chord >= bounds.range_px + bounds.taps + 2;
+  const bool along_line = rise + rise + rise >= run &&
+                          2 * half_chord >= bounds.range_px + bounds.step_px * (bounds.taps + 2);
   if (!along_line && run + run + run < rise + rise) {
     return RimMiss::kOutside;  // neither a line nor a column crosses the rim well here
   }
@@ -164,6 +195,9 @@ RimMiss search_rim(const FieldView& field, const Vector2<Px<S>>& point,
   const bool turned = product(tangent.y, outward.x) < product(tangent.x, outward.y);
   const P normal = along_line ? tangent.y : -tangent.x;
   s.direction = (normal < P{}) != turned ? -1 : 1;
+  if (bounds.step_px > 1) {
+    read_every(along_line ? bounds.step_px : bounds.step_px / field.line_step, s);
+  }
   if (!possible || !stays_inside(s)) {
     return RimMiss::kOutside;
   }

@@ -12,6 +12,7 @@ namespace tubesight::core::tracking {
 /// What a rim is to be looked for with.
 struct MeasurementBounds {
   std::int32_t range_px = 5;        ///< the rim is looked for this far to both sides
+  std::int32_t step_px = 1;         ///< from one reading to the next
   std::int32_t taps = 6;            ///< of the horizontal operator
   std::int32_t least_contrast = 8;  ///< grey levels
   bool thin_rim = false;            ///< the bright rim is a few pixels wide (fillet welds)

@@ -10,6 +10,9 @@
 namespace tubesight::core::tracking {
 namespace {
 
+// How far a rim may be from where a good pose puts it, in readings of a search.
+constexpr std::int32_t kCloseRange = 3;
+
 // How well bisection places the tube-ends, mm: two pixels. What it finds is fitted and then gated.
 template <typename M>
 M bisected_mm() {
@@ -56,16 +59,18 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
   list_candidates<S>(*model_, *map_, seen.pose, candidates_, &closed_);
   // Pixels per mm at the anchor, in the middle of the view: f / z.
   const M px_per_mm = quotient<M>(model_->camera.parameters().scale_px.x, seen.pose.origin.z);
-  std::int32_t range_px = 3 + to_scaled(times(expected.reach_mm, px_per_mm), 0);
-  constexpr std::int32_t kWidestRangePx = 9;
-  if (range_px > kWidestRangePx) {
+  const std::int32_t step_px = model_->reading_step_px;
+  std::int32_t range_px = kCloseRange * step_px + to_scaled(times(expected.reach_mm, px_per_mm), 0);
+  constexpr std::int32_t kWidestRange = 9;
+  if (range_px > kWidestRange * step_px) {
     if (!shift_onto_dark_regions<S>(*model_, field, candidates_,
                                     expected.reach_mm + bisected_mm<M>(), record_.light,
                                     seen.pose)) {
       return no_tubes();
     }
     list_candidates<S>(*model_, *map_, seen.pose, candidates_, &closed_);
-    range_px = 6;
+    constexpr std::int32_t kBisectedRange = 6;
+    range_px = kBisectedRange * step_px;
   }
   const FindingCount found = measure(field, range_px, prior_of<S>(expected), seen);
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
@@ -97,10 +102,10 @@ template <Scalar S>
 FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t range_px,
                                        const PosePrior<S>& prior, Observation<S>& seen) {
   constexpr std::int32_t kScouts = 6;
-  constexpr std::int32_t kCloseRangePx = 3;
+  const std::int32_t close_px = kCloseRange * model_->reading_step_px;
   record_.begin_field();
   FindingCount found;
-  if (range_px > kCloseRangePx) {
+  if (range_px > close_px) {
     found = measure_field<S>(*model_, field, seen.pose, candidates_,
                              {0, candidates_.size(), range_px, kScouts}, record_);
     seen.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, seen.pose);
@@ -109,7 +114,7 @@ FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t rang
     }
   }
   found += measure_field<S>(*model_, field, seen.pose, candidates_,
-                            {found.next, candidates_.size(), kCloseRangePx}, record_);
+                            {found.next, candidates_.size(), close_px}, record_);
   seen.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, seen.pose);
   return found;
 }

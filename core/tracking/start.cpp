@@ -26,6 +26,25 @@ struct Anchor {
 template <Scalar S>
 using AnchorList = StaticVector<Anchor<S>, kMaxStartPoints>;
 
+// The dark around a click. How large it is, is not known yet: a small one is looked at more
+// closely.
+template <Scalar S>
+edges::DarkRegion find_clicked(const TrackingModel<S>& model, const FieldView& field,
+                               const StartClick& click,
+                               const edges::DynamicThreshold& first_threshold) {
+  // A tube-end fills a third of the picture at most.
+  const std::int32_t reach_px = model.picture_width_px / 4;
+  constexpr std::int32_t kReadings = 20;  // across one
+  const auto look = [&](std::int32_t step_px) {
+    edges::DynamicThreshold threshold = first_threshold;
+    return edges::find_dark_region(field, click.u_q16 / 65536, click.v_q16 / 65536, reach_px,
+                                   threshold, step_px);
+  };
+  const edges::DarkRegion region = look(model.reading_step_px);
+  const bool large = region.height_q16() / 65536 >= kReadings * model.reading_step_px;
+  return model.reading_step_px == 1 || (region.found && large) ? region : look(1);
+}
+
 template <Scalar S>
 StartRefusal find_anchors(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
                           const FieldView& field, const StartClickList& clicks, LightLevels& light,
@@ -37,10 +56,7 @@ StartRefusal find_anchors(const TrackingModel<S>& model, const tubesheet::SheetM
     }
     Anchor<S> anchor;
     anchor.address = click.address;
-    edges::DynamicThreshold threshold = light.edge_threshold;
-    // A tube-end fills a third of the picture at most.
-    anchor.region = edges::find_dark_region(field, click.u_q16 / 65536, click.v_q16 / 65536,
-                                            model.picture_width_px / 4, threshold);
+    anchor.region = find_clicked<S>(model, field, click, light.edge_threshold);
     if (!anchor.region.found) {
       return StartRefusal::kNoTubeThere;
     }

@@ -25,6 +25,10 @@ struct TrackingModel {
   Parity first_field = Parity::kProgressive;  ///< of an interlaced frame: the one taken first
   std::int32_t picture_width_px = 0;
   std::int32_t picture_height_px = 0;
+  /// Pixels from one reading of a search to the next, and to which limits in pixels refer: 1 in
+  /// pictures of some 640 columns, and as many more as the picture has more, so that a search sees
+  /// the same share of the picture, at the same cost, whatever its size.
+  std::int32_t reading_step_px = 1;
 
   PixelBox window;  ///< where tube-ends are searched for
   Vector2<Px<S>> optimum_px{};

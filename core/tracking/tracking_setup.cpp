@@ -1,5 +1,6 @@
 #include "core/tracking/tracking_setup.h"
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/instantiate.h"
@@ -43,6 +44,9 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
                                                                  : Parity::kEven;
   model.picture_width_px = settings.camera.width_px;
   model.picture_height_px = settings.camera.height_px;
+  constexpr std::int32_t kUsualSide_px = 640;
+  const std::int32_t side_px = std::max(model.picture_width_px, model.picture_height_px);
+  model.reading_step_px = std::max((side_px + kUsualSide_px / 2) / kUsualSide_px, 1);
   const auto& window = settings.start.window_px;
   model.window = {window[0], window[1], window[2], window[3]};
   model.optimum_px = {Px<S>(settings.start.optimum_px[0]), Px<S>(settings.start.optimum_px[1])};

@@ -197,8 +197,10 @@ Finding measure_tube(const FieldView& field, const RimOutline<S>& outline,
   const M range = from_scaled<M>(bounds.range_px, 0);
   // A rim 2.75 px wider per 32 px is not this tube-end's: a plug's hole, the outside of a weld.
   const M widest = constant<M>(2.75);
+  // What makes a rim ragged is of the sheet: as many more pixels as the picture has more.
+  const M ragged = times(constant<M>(0.5), from_scaled<M>(bounds.step_px * bounds.step_px, 0));
   if (absolute(shift->du) > range || absolute(shift->dv) > range ||
-      absolute(shift->growth) > widest || rim.mean_square() > constant<M>(0.5)) {
+      absolute(shift->growth) > widest || rim.mean_square() > ragged) {
     return Finding::kDisagrees;
   }
   result.center_px = {result.predicted_px.x + convert<Px<S>>(shift->du),

@@ -15,18 +15,13 @@ using core::Unexpected;
 /// One that is lent, and one that the driver fills.
 constexpr std::uint32_t kFewest = 2;
 
-v4l2_buffer buffer_of(std::uint32_t index) {
-  v4l2_buffer buffer{};
-  buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  buffer.memory = V4L2_MEMORY_MMAP;
-  buffer.index = index;
-  return buffer;
-}
-
 }  // namespace
 
-Result<void> BufferRing::open(int descriptor, std::size_t bytes, std::string& message) {
+Result<void> BufferRing::open(int descriptor, CaptureApi api, std::size_t bytes,
+                              std::string& message) {
   descriptor_ = descriptor;
+  api_ = api;
+  picture_bytes_ = bytes;
   const auto fail = [&](const char* what, int status) -> Result<void> {
     message = std::string(what) + ": " + std::strerror(-status);
     close();
@@ -34,7 +29,7 @@ Result<void> BufferRing::open(int descriptor, std::size_t bytes, std::string& me
   };
   v4l2_requestbuffers wanted{};
   wanted.count = kBuffers;
-  wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  wanted.type = buffer_type_of(api);
   wanted.memory = V4L2_MEMORY_MMAP;
   if (const int status = kernel_->ioctl(descriptor, VIDIOC_REQBUFS, &wanted); status != 0) {
     return status == -EBUSY
@@ -46,7 +41,7 @@ Result<void> BufferRing::open(int descriptor, std::size_t bytes, std::string& me
     close();
     return Unexpected(Error::kIo);
   }
-  if (const auto mapped = map_all(wanted.count, bytes, message); !mapped) {
+  if (const auto mapped = map_all(wanted.count, message); !mapped) {
     close();
     return mapped;
   }
@@ -55,23 +50,25 @@ Result<void> BufferRing::open(int descriptor, std::size_t bytes, std::string& me
       return fail("does not take its buffers", status);
     }
   }
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  auto type = static_cast<int>(buffer_type_of(api_));
   if (const int status = kernel_->ioctl(descriptor, VIDIOC_STREAMON, &type); status != 0) {
     return fail("does not start to stream", status);
   }
   return {};
 }
 
-Result<void> BufferRing::map_all(std::uint32_t count, std::size_t bytes, std::string& message) {
+Result<void> BufferRing::map_all(std::uint32_t count, std::string& message) {
   for (std::uint32_t i = 0; i < count; ++i) {
-    v4l2_buffer told = buffer_of(i);
-    if (const int status = kernel_->ioctl(descriptor_, VIDIOC_QUERYBUF, &told); status != 0) {
+    BufferCall call(api_, i);
+    if (const int status = kernel_->ioctl(descriptor_, VIDIOC_QUERYBUF, call.argument());
+        status != 0) {
       message = std::string("does not describe its buffers: ") + std::strerror(-status);
       return Unexpected(Error::kIo);
     }
-    if (told.length < bytes) {
+    const v4l2_buffer told = call.answer();
+    if (told.length < picture_bytes_) {
       message = "gives buffers of " + std::to_string(told.length) + " bytes, expected " +
-                std::to_string(bytes) + " for the format that it agreed to";
+                std::to_string(picture_bytes_) + " for the format that it agreed to";
       return Unexpected(Error::kIo);
     }
     void* const memory = kernel_->map(descriptor_, told.length, told.m.offset);
@@ -79,7 +76,7 @@ Result<void> BufferRing::map_all(std::uint32_t count, std::size_t bytes, std::st
       message = "cannot share the memory of its buffers";
       return Unexpected(Error::kIo);
     }
-    static_cast<void>(buffers_.try_push_back({memory, told.length, false, false}));  // counted
+    static_cast<void>(buffers_.try_push_back({memory, told.length, 0, false, false}));  // counted
   }
   return {};
 }
@@ -88,37 +85,44 @@ void BufferRing::close() {
   if (descriptor_ < 0) {
     return;
   }
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  auto type = static_cast<int>(buffer_type_of(api_));
   static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_STREAMOFF, &type));
   for (const Mapped& buffer : buffers_) {
     kernel_->unmap(buffer.memory, buffer.bytes);
   }
   buffers_.clear();
   v4l2_requestbuffers none{};
-  none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  none.type = buffer_type_of(api_);
   none.memory = V4L2_MEMORY_MMAP;
   static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_REQBUFS, &none));
   descriptor_ = -1;
 }
 
 int BufferRing::take(v4l2_buffer& buffer) {
-  buffer = buffer_of(0);
-  const int status = kernel_->ioctl(descriptor_, VIDIOC_DQBUF, &buffer);
+  BufferCall call(api_, 0);
+  const int status = kernel_->ioctl(descriptor_, VIDIOC_DQBUF, call.argument());
   if (status != 0) {
     return status;
   }
+  buffer = call.answer();
   if (buffer.index >= static_cast<std::uint32_t>(buffers_.size()) ||
       !buffers_[static_cast<std::int32_t>(buffer.index)].queued) {
     return -EBADMSG;  // one that it did not have
   }
-  buffers_[static_cast<std::int32_t>(buffer.index)].queued = false;
+  Mapped& mapped = buffers_[static_cast<std::int32_t>(buffer.index)];
+  mapped.queued = false;
+  mapped.offset = call.data_offset();
+  if (mapped.offset > mapped.bytes - picture_bytes_) {
+    mapped.offset = 0;
+    buffer.bytesused = 0;
+  }
   return 0;
 }
 
 int BufferRing::queue(std::uint32_t index) {
   Mapped& mapped = buffers_[static_cast<std::int32_t>(index)];
-  v4l2_buffer buffer = buffer_of(index);
-  const int status = kernel_->ioctl(descriptor_, VIDIOC_QBUF, &buffer);
+  BufferCall call(api_, index);
+  const int status = kernel_->ioctl(descriptor_, VIDIOC_QBUF, call.argument());
   mapped.queued = status == 0;
   mapped.owed = status != 0;
   refusals_ += status != 0 ? 1 : 0;
@@ -139,7 +143,8 @@ int BufferRing::queue_owed() {
 }
 
 const std::byte* BufferRing::memory(std::uint32_t index) const {
-  return static_cast<const std::byte*>(buffers_[static_cast<std::int32_t>(index)].memory);
+  const Mapped& mapped = buffers_[static_cast<std::int32_t>(index)];
+  return static_cast<const std::byte*>(mapped.memory) + mapped.offset;
 }
 
 }  // namespace tubesight::drivers::v4l2

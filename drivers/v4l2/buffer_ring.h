@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/base/static_vector.h"
+#include "drivers/v4l2/capture_api.h"
 #include "drivers/v4l2/kernel.h"
 
 struct v4l2_buffer;
@@ -22,12 +23,14 @@ class BufferRing {
 
   /// Obtains, maps and queues the buffers, each of `bytes` at least, and starts the stream. After
   /// an error the ring is closed. Errors: kIo, with `message`.
-  [[nodiscard]] core::Result<void> open(int descriptor, std::size_t bytes, std::string& message);
+  [[nodiscard]] core::Result<void> open(int descriptor, CaptureApi api, std::size_t bytes,
+                                        std::string& message);
 
   /// Stops the stream and gives all memory back, also where the device is gone.
   void close();
 
-  /// Takes a filled buffer; gives 0 or -errno.
+  /// Takes a filled buffer; gives 0 or -errno. Of planes, as where there are none; a picture that
+  /// would not fit behind its offset is told as one of no bytes.
   [[nodiscard]] int take(v4l2_buffer& buffer);
 
   /// Gives one back to the driver. What it refuses is tried again by queue_owed().
@@ -36,6 +39,7 @@ class BufferRing {
   /// Tries again to give back what the driver refused; gives 0, or -errno of a refusal.
   [[nodiscard]] int queue_owed();
 
+  /// Where the picture of a buffer that was taken begins.
   [[nodiscard]] const std::byte* memory(std::uint32_t index) const;
   [[nodiscard]] std::int64_t refusals() const { return refusals_; }
 
@@ -45,15 +49,18 @@ class BufferRing {
   struct Mapped {
     void* memory = nullptr;
     std::size_t bytes = 0;
+    std::size_t offset = 0;  ///< of the picture in it
     bool queued = false;
     bool owed = false;
   };
 
-  core::Result<void> map_all(std::uint32_t count, std::size_t bytes, std::string& message);
+  core::Result<void> map_all(std::uint32_t count, std::string& message);
   int queue(std::uint32_t index);
 
   Kernel* kernel_;
   int descriptor_ = -1;
+  CaptureApi api_ = CaptureApi::kWhole;
+  std::size_t picture_bytes_ = 0;
   core::StaticVector<Mapped, kMostBuffers> buffers_;
   std::int64_t refusals_ = 0;
 };

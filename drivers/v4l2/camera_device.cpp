@@ -45,18 +45,18 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
     return refuse(Error::kIo, message,
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
+  agreed_ = {};
   TUBESIGHT_TRY(check(settings, node, message));
   // Nothing is set on a camera that another program uses: its input would be switched under it. No
   // buffers are asked for, which only the stranger is refused.
   v4l2_requestbuffers none{};
-  none.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  none.type = buffer_type_of(agreed_.api);
   none.memory = V4L2_MEMORY_MMAP;
   if (kernel_->ioctl(descriptor_, VIDIOC_REQBUFS, &none) == -EBUSY) {
     return refuse(Error::kIo, message,
                   "is busy: another program takes its pictures, expected it free");
   }
   keep_input();
-  agreed_ = {};
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
   // A driver that knows nothing of it never says that the source has changed.
@@ -64,7 +64,7 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
   change.type = V4L2_EVENT_SOURCE_CHANGE;
   change.id = agreed_.input;
   static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
-  return ring_.open(descriptor_, agreed_.bytes, message);
+  return ring_.open(descriptor_, agreed_.api, agreed_.bytes, message);
 }
 
 /// Settings that name no input take the one found at the first start, not one that somebody has
@@ -83,12 +83,12 @@ Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string
   if (kernel_->ioctl(descriptor_, VIDIOC_QUERYCAP, &can) != 0) {
     return refuse(Error::kUnsupported, message, "is no camera");
   }
-  const std::uint32_t caps =
-      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
-  if ((caps & V4L2_CAP_VIDEO_CAPTURE) == 0 || (caps & V4L2_CAP_STREAMING) == 0) {
+  const auto api = capture_api_of(can);
+  if (!api || (caps_of(can) & V4L2_CAP_STREAMING) == 0) {
     return refuse(Error::kUnsupported, message,
                   "is no camera, expected one that streams pictures of one plane");
   }
+  agreed_.api = *api;
   const std::string serial = serial_of(*kernel_, node);
   if (!settings.serial.empty() && serial != settings.serial) {
     return refuse(Error::kUnsupported, message,

@@ -6,6 +6,7 @@
 
 #include <linux/videodev2.h>
 
+#include "drivers/v4l2/capture_api.h"
 #include "drivers/v4l2/pixel_format.h"
 
 namespace tubesight::drivers::v4l2 {
@@ -43,11 +44,7 @@ class Opened {
 };
 
 /// Whether a node gives pictures; nodes for their descriptions beside it do not.
-bool captures(const v4l2_capability& can) {
-  const std::uint32_t caps =
-      (can.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? can.device_caps : can.capabilities;
-  return (caps & V4L2_CAP_VIDEO_CAPTURE) != 0;
-}
+bool captures(const v4l2_capability& can) { return capture_api_of(can).has_value(); }
 
 std::string link_to(Kernel& kernel, const std::string& folder, const std::string& node) {
   for (const std::string& name : kernel.list(folder)) {
@@ -93,11 +90,11 @@ std::string sizes_of(const Opened& camera, std::uint32_t code) {
   return text;
 }
 
-void list_formats(const Opened& camera, CameraInfo& info) {
+void list_formats(const Opened& camera, CaptureApi api, CameraInfo& info) {
   for (std::uint32_t i = 0; i < kMostEntries; ++i) {
     v4l2_fmtdesc format{};
     format.index = i;
-    format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    format.type = buffer_type_of(api);
     if (!camera.ask(VIDIOC_ENUM_FMT, &format)) {
       return;
     }
@@ -174,7 +171,7 @@ std::vector<CameraInfo> list_cameras(Kernel& kernel) {
     info.by_id = link_to(kernel, "/dev/v4l/by-id", info.node);
     info.by_path = link_to(kernel, "/dev/v4l/by-path", info.node);
     list_inputs(camera, info);
-    list_formats(camera, info);
+    list_formats(camera, capture_api_of(can).value_or(CaptureApi::kWhole), info);
     cameras.push_back(info);
   }
   return cameras;

@@ -86,7 +86,7 @@ class Setup {
   }
   std::vector<std::uint32_t> offered_formats();
   Result<bool> try_format(const PixelFormat& pixel, const Layout& layout);
-  bool take_over(const PixelFormat& pixel, const Layout& layout, const v4l2_pix_format& got);
+  bool take_over(const PixelFormat& pixel, const Layout& layout, const v4l2_format& format);
   double told_frames_per_s();
 
   Kernel& kernel_;
@@ -149,7 +149,7 @@ std::vector<std::uint32_t> Setup::offered_formats() {
   for (std::uint32_t i = 0; i < kMostEntries; ++i) {
     v4l2_fmtdesc format{};
     format.index = i;
-    format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    format.type = buffer_type_of(agreed_.api);
     if (ask(VIDIOC_ENUM_FMT, &format) != 0) {
       break;
     }
@@ -159,11 +159,16 @@ std::vector<std::uint32_t> Setup::offered_formats() {
 }
 
 /// A driver may have answered with anything; what does not hold the picture as wanted is refused.
-bool Setup::take_over(const PixelFormat& pixel, const Layout& layout, const v4l2_pix_format& got) {
+bool Setup::take_over(const PixelFormat& pixel, const Layout& layout, const v4l2_format& format) {
+  const v4l2_pix_format got = picture_of(agreed_.api, format);
   const bool one_field = layout.kind == BufferKind::kOneField;
   const std::int32_t lines = one_field ? settings_.height_px / 2 : settings_.height_px;
   offers_ = std::string(code_text(got.pixelformat).data()) + " " + std::to_string(got.width) +
             " x " + std::to_string(got.height) + " " + words_of_field(got.field);
+  if (const std::uint32_t planes = planes_of(agreed_.api, format); planes != 1) {
+    offers_ += " in " + std::to_string(planes) + " planes";
+    return false;
+  }
   if (got.pixelformat != pixel.code || std::cmp_not_equal(got.width, settings_.width_px) ||
       std::cmp_not_equal(got.height, lines) || !same_layout(layout.field, got.field)) {
     return false;
@@ -188,14 +193,14 @@ bool Setup::take_over(const PixelFormat& pixel, const Layout& layout, const v4l2
 
 /// False: not this one.
 Result<bool> Setup::try_format(const PixelFormat& pixel, const Layout& layout) {
-  v4l2_format format{};
-  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  format.fmt.pix.width = static_cast<std::uint32_t>(settings_.width_px);
+  v4l2_pix_format picture{};
+  picture.width = static_cast<std::uint32_t>(settings_.width_px);
   const std::int32_t height =
       layout.kind == BufferKind::kOneField ? settings_.height_px / 2 : settings_.height_px;
-  format.fmt.pix.height = static_cast<std::uint32_t>(height);
-  format.fmt.pix.pixelformat = pixel.code;
-  format.fmt.pix.field = layout.field;
+  picture.height = static_cast<std::uint32_t>(height);
+  picture.pixelformat = pixel.code;
+  picture.field = layout.field;
+  v4l2_format format = format_of(agreed_.api, picture);
   const int status = ask(VIDIOC_S_FMT, &format);
   if (status == -EBUSY) {
     return Unexpected(
@@ -207,13 +212,13 @@ Result<bool> Setup::try_format(const PixelFormat& pixel, const Layout& layout) {
                : Result<bool>(Unexpected(
                      fail(Error::kIo, std::string("format: ") + std::strerror(-status)).error()));
   }
-  if (!take_over(pixel, layout, format.fmt.pix)) {
+  if (!take_over(pixel, layout, format)) {
     return false;
   }
   // What a driver says when it is asked again is what it will do.
   v4l2_format kept{};
-  kept.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  return ask(VIDIOC_G_FMT, &kept) == 0 && take_over(pixel, layout, kept.fmt.pix);
+  kept.type = buffer_type_of(agreed_.api);
+  return ask(VIDIOC_G_FMT, &kept) == 0 && take_over(pixel, layout, kept);
 }
 
 Result<void> Setup::choose_format() {
@@ -222,7 +227,7 @@ Result<void> Setup::choose_format() {
        {std::pair{V4L2_SEL_TGT_CROP_DEFAULT, V4L2_SEL_TGT_CROP},
         std::pair{V4L2_SEL_TGT_COMPOSE_DEFAULT, V4L2_SEL_TGT_COMPOSE}}) {
     v4l2_selection whole{};
-    whole.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    whole.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;  // of both sets of calls
     whole.target = static_cast<std::uint32_t>(bounds);
     if (ask(VIDIOC_G_SELECTION, &whole) == 0) {
       whole.target = static_cast<std::uint32_t>(target);
@@ -270,7 +275,7 @@ Result<void> Setup::choose_format() {
 /// As the driver says, or the standard; 0: nobody does.
 double Setup::told_frames_per_s() {
   v4l2_streamparm told{};
-  told.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  told.type = buffer_type_of(agreed_.api);
   if (ask(VIDIOC_G_PARM, &told) == 0) {
     const v4l2_fract& frame = told.parm.capture.timeperframe;
     if (frame.numerator > 0 && frame.denominator > 0) {
@@ -286,7 +291,7 @@ Result<void> Setup::choose_rate() {
   if (wanted > 0.0) {
     constexpr double kParts = 1000.0;
     v4l2_streamparm asked{};
-    asked.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    asked.type = buffer_type_of(agreed_.api);
     asked.parm.capture.timeperframe.numerator = static_cast<std::uint32_t>(kParts);
     asked.parm.capture.timeperframe.denominator =
         static_cast<std::uint32_t>(std::lround(wanted * kParts));

@@ -6,6 +6,7 @@
 
 #include "core/base/field.h"
 #include "core/base/result.h"
+#include "drivers/v4l2/capture_api.h"
 #include "drivers/v4l2/kernel.h"
 #include "drivers/v4l2/pixel_format.h"
 #include "drivers/v4l2/sequence_counter.h"
@@ -15,6 +16,7 @@ namespace tubesight::drivers::v4l2 {
 
 /// What was agreed with a driver, read back from it.
 struct AgreedFormat {
+  CaptureApi api = CaptureApi::kWhole;  ///< what the device can, known beforehand
   PixelFormat pixel;
   BufferKind kind = BufferKind::kFrame;
   bool sequential = false;  ///< the fields of a pair stand one below the other
@@ -28,7 +30,7 @@ struct AgreedFormat {
 };
 
 /// Sets an open camera as the settings want it and reads back what became of it: input, standard,
-/// format, rate, controls. Opens no buffers.
+/// format, rate, controls. Opens no buffers. `agreed.api` is read, the rest is written.
 ///
 /// Errors: kUnsupported it does not have what is wanted, kIo it refused; `message` says which, what
 /// it offers and what was wanted.

@@ -71,6 +71,29 @@ TEST_P(DarkRegionOnField, HasTheSidesOfAnEllipse) {
   EXPECT_NEAR(pixels(region.bottom_q16), 81.6, 0.4);
 }
 
+TEST_P(DarkRegionOnField, IsTheSameInAPictureThreeTimesLargerReadAtEveryThirdPixel) {
+  for (int i = 0; i < 12; ++i) {
+    Ellipse disc;
+    disc.u = 210.0 + 0.37 * i;
+    disc.v = 180.0 + 0.61 * i;
+    disc.half_u = 75.0;
+    disc.half_v = 75.0;
+    Picture picture(480, 384);
+    picture.draw(disc);
+    DynamicThreshold threshold(200);
+
+    const DarkRegion region =
+        find_dark_region(picture.field(GetParam()), static_cast<std::int32_t>(disc.u) + 40 - i,
+                         static_cast<std::int32_t>(disc.v) - 30 + i, 180, threshold, 3);
+
+    ASSERT_TRUE(region.found) << "disc " << i;
+    EXPECT_NEAR(pixels(region.center_u_q16()), disc.u, 0.6) << "disc " << i;
+    EXPECT_NEAR(pixels(region.center_v_q16()), disc.v, 0.75) << "disc " << i;
+    EXPECT_NEAR(pixels(region.height_q16()), 150.0, 1.8) << "disc " << i;
+    EXPECT_NEAR(pixels(region.width_q16()), 150.0, 1.8) << "disc " << i;
+  }
+}
+
 TEST(FindDarkRegion, FindsADimEdgeAfterHalvingTheThreshold) {
   Ellipse disc;
   disc.u = 80.0;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -139,6 +141,65 @@ TEST(RefineEdge, ReadsNoFartherThanItsReach) {
   EXPECT_TRUE(refine_edge(path, {true, 5, 600}, -1, EdgeReach{4, 4}, 8).found);
   picture.draw([](double, double) { return 10.0; });
   EXPECT_FALSE(refine_edge(path, {true, 5, 600}, 1, EdgeReach{4, 4}, 8).found);
+}
+
+// At every third pixel, as in a picture three times larger.
+Edge coarse_edge_from(const Picture& picture, std::int32_t first, std::int32_t direction) {
+  constexpr std::int32_t kStep = 3;
+  const EdgePath path = horizontal_path(picture.field(Parity::kProgressive), 1);
+  const EdgePath readings = every(path, kStep, first % kStep);
+  const EdgePeak peak = find_edge(readings, {first / kStep, direction, 30, kHorizontalTaps, 200});
+  const EdgePeak there{true, peak.position * kStep + first % kStep, peak.gradient};
+  return peak.found ? refine_edge_coarsely(path, there, direction, EdgeReach{12, 12}, kStep, 8)
+                    : Edge{};
+}
+
+TEST(RefineEdgeCoarsely, PlacesASharpStepAsWellAsAFineLook) {
+  for (const std::int32_t direction : {1, -1}) {
+    for (int i = 0; i < 50; ++i) {
+      const double truth = 150.0 + i * 0.07;
+      Picture picture(300, 3);
+      picture.draw([&](double u, double) {
+        return 20.0 + 140.0 * blurred_step(direction * (u - truth), 0.9);
+      });
+
+      const Edge edge = coarse_edge_from(picture, 150 - direction * 45 + i % 3, direction);
+
+      ASSERT_TRUE(edge.found) << truth;
+      EXPECT_NEAR(pixels(edge.position_q16), truth, kWorst);
+      EXPECT_NEAR(edge.contrast, 140, 2) << truth;
+    }
+  }
+}
+
+TEST(RefineEdgeCoarsely, PlacesASmearThatAFineLookTakesForNoise) {
+  // From dark to bright in 40 px: 2.5 grey levels a pixel, 20 of 100 within a fine look's reach.
+  const auto smear = [](double u) { return 20.0 + std::clamp(2.5 * (u - 130.0), 0.0, 100.0); };
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 2.0);
+  double fine2 = 0.0;
+  double coarse2 = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    Picture picture(300, 3);
+    picture.draw([&](double u, double) { return smear(u) + noise(random); });
+    const Edge fine = edge_from(picture, 115, 1);
+    const Edge coarse = coarse_edge_from(picture, 105, 1);
+    ASSERT_TRUE(coarse.found);
+    coarse2 += std::pow(pixels(coarse.position_q16) - 150.0, 2);
+    fine2 += fine.found ? std::pow(pixels(fine.position_q16) - 150.0, 2) : 400.0;
+  }
+  EXPECT_LT(coarse2, fine2 / 2.0);
+}
+
+TEST(RefineEdgeCoarsely, ReadsNoFartherThanItsReach) {
+  // Peak at 13: dark pixels 0 and 1, bright ones up to 29. Thirty pixels in all.
+  Picture picture(30, 3);
+  const EdgePath path = horizontal_path(picture.field(Parity::kProgressive), 1);
+
+  picture.draw([](double u, double) { return u < 14.0 ? 10.0 : 110.0; });
+  EXPECT_TRUE(refine_edge_coarsely(path, {true, 13, 600}, 1, EdgeReach{12, 12}, 3, 8).found);
+  picture.draw([](double, double) { return 10.0; });
+  EXPECT_FALSE(refine_edge_coarsely(path, {true, 13, 600}, 1, EdgeReach{12, 12}, 3, 8).found);
 }
 
 }  // namespace

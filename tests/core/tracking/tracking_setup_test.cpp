@@ -25,6 +25,26 @@ class TrackingSetup : public ::testing::Test {
 };
 TYPED_TEST_SUITE(TrackingSetup, Scalars);
 
+TYPED_TEST(TrackingSetup, ReadsLargerPicturesInLargerSteps) {
+  struct Case {
+    std::int32_t width_px, height_px, step_px;
+  };
+  for (const Case& c :
+       {Case{320, 240, 1}, Case{635, 480, 1}, Case{720, 576, 1}, Case{959, 720, 1},
+        Case{960, 720, 2}, Case{1280, 1024, 2}, Case{1920, 1200, 3}, Case{1200, 1920, 3}}) {
+    CameraSettings& camera = this->scene_.settings->camera;
+    const double columns = static_cast<double>(c.width_px) / camera.width_px;
+    const double lines = static_cast<double>(c.height_px) / camera.height_px;
+    camera.cell_width_mm /= columns;
+    camera.cell_height_mm /= lines;
+    camera.center_px = {camera.center_px[0] * columns, camera.center_px[1] * lines};
+    camera.width_px = c.width_px;
+    camera.height_px = c.height_px;
+    ASSERT_TRUE(this->make().has_value()) << c.width_px;
+    EXPECT_EQ(this->scene_.model.reading_step_px, c.step_px) << c.width_px;
+  }
+}
+
 TYPED_TEST(TrackingSetup, TakesTheSettingsOver) {
   this->scene_.settings->motion = {250.0, 4000.0};
   this->scene_.settings->verification.aligned_within_mm = 1.5;

@@ -74,4 +74,21 @@ class CameraBench {
   drivers::V4l2FrameGrabber grabber_;
 };
 
+/// Whether each pixel is the one that the camera drew there.
+inline void expect_drawn(const core::Field& field, std::int32_t width_px, std::int32_t lines) {
+  const core::FieldView& view = field.pixels;
+  ASSERT_EQ(view.width_px, width_px);
+  ASSERT_EQ(view.lines, lines);
+  for (std::int32_t line = 0; line < lines; ++line) {
+    const std::uint8_t* const pixels =
+        view.pixels + static_cast<std::ptrdiff_t>(line) * view.stride_px;
+    const std::int32_t v = view.first_line + line * view.line_step;
+    std::int32_t alike = 0;
+    while (alike < width_px && pixels[alike] == drawn_grey(alike, v)) {
+      ++alike;
+    }
+    ASSERT_EQ(alike, width_px) << "line " << line;
+  }
+}
+
 }  // namespace tubesight::tests

@@ -44,6 +44,8 @@ struct FakeCamera {
   std::uint32_t widths_of = 1;      ///< a width is rounded up to a multiple of it
   std::uint32_t padding_bytes = 0;  ///< at the end of a line
   std::uint32_t missing_bytes = 0;  ///< of a buffer's memory
+  std::uint32_t planes = 0;         ///< it knows the calls with planes alone, and gives so many
+  std::uint32_t data_offset = 0;    ///< bytes before the picture, in the first plane
   v4l2_fract frame_time{1, 30};     ///< 0: it does not say
   bool changes_rate = false;
   std::uint32_t most_buffers = 32;

@@ -6,6 +6,8 @@
 
 #include <poll.h>
 
+#include "tests/drivers/v4l2/fake_planes.h"
+
 namespace tubesight::tests {
 namespace {
 
@@ -66,7 +68,16 @@ int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {
       return result;
     }
   }
-  return answer(opened, request, argument);
+  if (!of_this_camera(*opened.camera, request, argument)) {
+    return -EINVAL;
+  }
+  if (opened.camera->planes == 0) {
+    return answer(opened, request, argument);
+  }
+  // One reference: what a std::function holds without the heap.
+  const auto serve = [&](void* whole) { return answer(opened, request, whole); };
+  return answer_in_planes(*opened.camera, request, argument,
+                          [&serve](void* whole) { return serve(whole); });
 }
 
 int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
@@ -211,7 +222,8 @@ int FakeKernel::give_buffers(Opened& opened, v4l2_requestbuffers& wanted) const 
   opened.done.clear();
   opened.done.reserve(wanted.count);
   for (Buffer& buffer : opened.buffers) {
-    buffer.memory.resize(opened.format.sizeimage - opened.camera->missing_bytes);
+    buffer.memory.resize(opened.camera->data_offset + opened.format.sizeimage -
+                         opened.camera->missing_bytes);
   }
   return 0;
 }
@@ -251,7 +263,7 @@ void FakeKernel::expose(Opened& opened) {
     told.field = opened.bottom ? V4L2_FIELD_BOTTOM : V4L2_FIELD_TOP;
   }
   told.sequence = opened.sequence;
-  told.bytesused = opened.format.sizeimage;
+  told.bytesused = camera.data_offset + opened.format.sizeimage;
   told.timestamp.tv_sec = opened.next.count() / 1'000'000'000;
   told.timestamp.tv_usec = opened.next.count() % 1'000'000'000 / 1000;
   // Both fields of a frame have one number, as the specification wants it.
@@ -265,7 +277,7 @@ void FakeKernel::expose(Opened& opened) {
   opened.queue.erase(opened.queue.begin());
   Buffer& buffer = opened.buffers[told.index];
   buffer.told = told;
-  draw_picture(opened.format, told, buffer.memory);
+  draw_picture(opened.format, told, std::span(buffer.memory).subspan(camera.data_offset));
   if (camera.tamper) {
     camera.tamper(number, buffer.told, buffer.memory);
   }

@@ -48,20 +48,6 @@ INSTANTIATE_TYPED_TEST_SUITE_P(Interlaced, FrameGrabberContract, tests::Interlac
 namespace tubesight::tests {
 namespace {
 
-/// Whether each pixel is the one that the camera drew there.
-void expect_drawn(const core::Field& field, std::int32_t width_px, std::int32_t lines) {
-  const core::FieldView& view = field.pixels;
-  ASSERT_EQ(view.width_px, width_px);
-  ASSERT_EQ(view.lines, lines);
-  for (std::int32_t line = 0; line < lines; ++line) {
-    for (std::int32_t u = 0; u < width_px; ++u) {
-      ASSERT_EQ(view.pixels[line * view.stride_px + u],
-                drawn_grey(u, view.first_line + line * view.line_step))
-          << "line " << line << ", pixel " << u;
-    }
-  }
-}
-
 void expect_fields(CameraBench& bench, std::int32_t width_px, std::int32_t lines, Parity first) {
   ASSERT_TRUE(bench.grabber().start()) << bench.message();
   core::Field before;

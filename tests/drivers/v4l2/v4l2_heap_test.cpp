@@ -6,8 +6,12 @@
 namespace tubesight::tests {
 namespace {
 
-TEST(V4l2Heap, FieldsAllocateNothing) {
+void expect_no_allocation(std::uint32_t planes) {
   CameraBench bench(settings_of(core::Scan::kEvenFirst));
+  if (planes > 0) {
+    bench.camera().caps = V4L2_CAP_VIDEO_CAPTURE_MPLANE | V4L2_CAP_STREAMING;
+    bench.camera().planes = planes;
+  }
   bench.camera().fields = {V4L2_FIELD_INTERLACED};
   bench.camera().formats = {V4L2_PIX_FMT_YUYV};
   ASSERT_TRUE(bench.grabber().start());
@@ -27,6 +31,10 @@ TEST(V4l2Heap, FieldsAllocateNothing) {
   EXPECT_EQ(good, 40);
   EXPECT_EQ(calls.allocations, 0);
 }
+
+TEST(V4l2Heap, FieldsAllocateNothing) { expect_no_allocation(0); }
+
+TEST(V4l2Heap, FieldsInPlanesAllocateNothing) { expect_no_allocation(1); }
 
 }  // namespace
 }  // namespace tubesight::tests
