@@ -34,7 +34,7 @@ void MissionLog::take(const std::string& line) {
   if (kind == "P") {
     MissionPoll poll;
     words >> poll.sent_us >> poll.received_us >> poll.valid >> poll.field >> poll.age_ms >> tube >>
-        poll.aligned;
+        poll.aligned >> poll.state;
     polls_.push_back(poll);
   } else if (kind == "C") {
     MissionClaim claim;
@@ -48,6 +48,13 @@ void MissionLog::take(const std::string& line) {
       words.setstate(std::ios::failbit);
     }
     claims_.push_back(claim);
+  } else if (kind == "R") {
+    MissionRestart restart;
+    words >> restart.at_us >> restart.field >> tube >> restart.refused;
+    if (!parse_tube(tube, restart.tube)) {
+      words.setstate(std::ios::failbit);
+    }
+    restarts_.push_back(restart);
   } else if (kind == "H") {
     words >> health_.fields >> health_.missing >> health_.late >> health_.requests >>
         health_.exceptions >> health_.crc_errors >> health_.late_claims >> health_.worst_us >>
@@ -71,6 +78,18 @@ void MissionLog::mark_fields() {
     strange_ += "no read of the sighting tells when a field was exposed\n";
     marks_.push_back({});
   }
+}
+
+std::size_t MissionLog::restarts_taken() const {
+  return static_cast<std::size_t>(
+      std::count_if(restarts_.begin(), restarts_.end(),
+                    [](const MissionRestart& restart) { return restart.refused == 0; }));
+}
+
+std::size_t MissionLog::polls_while_lost() const {
+  constexpr std::int32_t kLost = 3;
+  return static_cast<std::size_t>(std::count_if(
+      polls_.begin(), polls_.end(), [](const MissionPoll& poll) { return poll.state == kLost; }));
 }
 
 double MissionLog::exposed_us(std::int64_t number) const {

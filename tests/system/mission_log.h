@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -17,6 +18,15 @@ struct MissionPoll {
   std::int64_t field = -1;
   std::int64_t age_ms = -1;
   bool aligned = false;
+  std::int32_t state = 0;
+};
+
+/// A start after a loss.
+struct MissionRestart {
+  std::int64_t at_us = 0;
+  std::int64_t field = -1;  ///< of the picture's, as the robot reckons it
+  core::TubeAddress tube{};
+  std::int32_t refused = 0;  ///< 0: taken
 };
 
 enum class MissionVerdict : std::uint8_t { kNone, kAgree, kDisagree, kCannotSay };
@@ -56,6 +66,9 @@ class MissionLog {
 
   [[nodiscard]] const std::vector<MissionPoll>& polls() const { return polls_; }
   [[nodiscard]] const std::vector<MissionClaim>& claims() const { return claims_; }
+  [[nodiscard]] const std::vector<MissionRestart>& restarts() const { return restarts_; }
+  [[nodiscard]] std::size_t restarts_taken() const;
+  [[nodiscard]] std::size_t polls_while_lost() const;
   [[nodiscard]] const MissionHealth& health() const { return health_; }
   /// Lines that are none of these; empty: none.
   [[nodiscard]] const std::string& strange() const { return strange_; }
@@ -77,6 +90,7 @@ class MissionLog {
   double span_us_;
   std::vector<MissionPoll> polls_;
   std::vector<MissionClaim> claims_;
+  std::vector<MissionRestart> restarts_;
   MissionHealth health_;
   std::string strange_;
   std::vector<Mark> marks_;  ///< in the order of their numbers

@@ -1,14 +1,17 @@
 """A robot on a mission: polls and claims over its link, and writes down all it asked and was told.
 
-Usage: mission_robot.py EXAMPLES LINE SECONDS
+Usage: mission_robot.py EXAMPLES LINE SECONDS RESTS SPAN_US
 
-EXAMPLES is the folder of the document's robot program, whose parts it uses. Twenty times a second it
+EXAMPLES is the folder of the document's robot program, whose parts it uses. RESTS is a file with a line
+a rest of the tool: first and last field, row, column; SPAN_US is from one field to the next. Where the
+box has lost its track, the robot starts it anew when it rests, as it knows where it is. Twenty times a second it
 reads the block `sighting`, and claims where it was some time ago by what it had read then: every
 second claim names a wrong tube beside it, every fifth is made in two transactions. A line each, with
 instants of the monotonic clock in us:
 
-  P SENT RECEIVED VALID FIELD AGE_MS TUBE ALIGNED
+  P SENT RECEIVED VALID FIELD AGE_MS TUBE ALIGNED STATE
   C SENT TAKEN RECEIVED AGE_MS CLAIMED VERDICT REASON NAMED FIELD
+  R AT FIELD TUBE REFUSED
   H FIELDS MISSING LATE REQUESTS EXCEPTIONS CRC_ERRORS LATE_CLAIMS WORST_US CLAIM_WORST_US
 
 TAKEN is when a claim's own write was answered; of one transaction that is the verdict's arrival.
@@ -22,7 +25,9 @@ import robot  # noqa: E402
 
 RATE = 20
 AGES_MS = (0, 0, 40, 120, 0, 200, 0, 300)  # the last is older than the box answers for
+LOST = 3  # state
 Seen = collections.namedtuple("Seen", "at_us tube")
+Polled = collections.namedtuple("Polled", "at_us tube field lost")
 
 
 def now_us():
@@ -35,8 +40,37 @@ def poll(master):
     received = now_us()
     tube = (robot.number(got, 22), robot.number(got, 24)) if got[4] & 1 << 4 else None
     age = robot.number(got, 48) if got[4] & 1 else -1
-    print("P", sent, received, got[4], robot.number(got, 12), age, robot.text(tube), got[45])
-    return Seen((sent + received) // 2 - 1000 * age, tube) if tube else None
+    field = robot.number(got, 12)
+    print("P", sent, received, got[4], field, age, robot.text(tube), got[45], got[5])
+    exposed = (sent + received) // 2 - 1000 * age if age >= 0 else None
+    return Polled(exposed, tube, field, got[5] == LOST)
+
+
+class Restarts:
+    """Starts the box anew after a loss, when the tool rests under a tube for long enough."""
+
+    BEGIN, END = 6, 12  # fields of a rest that are left out
+
+    def __init__(self, master, path, span_us):
+        self.master = master
+        self.span_us = span_us
+        with open(path, encoding="ascii") as file:
+            self.rests = [tuple(map(int, line.split())) for line in file]
+        self.mark = None  # a field and when it was exposed
+
+    def look(self, polled):
+        if polled.at_us is not None:
+            self.mark = polled.field, polled.at_us
+        if not polled.lost or not self.mark:
+            return
+        field = self.mark[0] + round((now_us() - self.mark[1]) / self.span_us)
+        for first, last, row, column in self.rests:
+            if first + self.BEGIN <= field <= last - self.END:
+                rows, columns = row - robot.START[0][0], column - robot.START[0][1]
+                tubes = [(r + rows, c + columns, u, v) for r, c, u, v in robot.START]
+                at = now_us()
+                refused = robot.start(self.master, tubes)
+                print("R", at, field, robot.text((row, column)), refused)
 
 
 def claim(master, claim_id, tube, age, boot, in_two):
@@ -67,11 +101,12 @@ def claim(master, claim_id, tube, age, boot, in_two):
     return True
 
 
-def main(line, seconds):
+def main(line, seconds, rests, span_us):
     master = robot.connect(line)
     boot = robot.sighting(master)[2]
     if refused := robot.start(master):
         sys.exit(f"start refused, reason {refused}")
+    restarts = Restarts(master, rests, span_us)
     seen = collections.deque(maxlen=RATE)
     unanswered = 0
     begin = time.monotonic()
@@ -79,8 +114,10 @@ def main(line, seconds):
         # Not in step with the fields: at another part of one each time.
         due = begin + i / RATE + 0.001 * (i * 7 % 17)
         time.sleep(max(0.0, due - time.monotonic()))
-        if sighting := poll(master):
-            seen.append(sighting)
+        polled = poll(master)
+        restarts.look(polled)
+        if polled.tube and polled.at_us is not None:
+            seen.append(Seen(polled.at_us, polled.tube))
         if not seen:
             continue
         age = AGES_MS[i % len(AGES_MS)]
@@ -94,4 +131,4 @@ def main(line, seconds):
         sys.exit(f"{unanswered} claims without an answer of their own")
 
 
-main(sys.argv[2], float(sys.argv[3]))
+main(sys.argv[2], float(sys.argv[3]), sys.argv[4], float(sys.argv[5]))

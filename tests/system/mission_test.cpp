@@ -44,6 +44,8 @@ std::string scenario_text(double seconds, const std::string& example) {
   const double pause_s = std::max(0.6, (seconds - kRest_s) / kMostVisits - kMove_s);
   return example.substr(0, example.find("[[step]]")) +
          "[video]\nwindow_margin_px = 24\nlength_s = " + std::to_string(seconds + 30.0) +
+         // A black stretch that no track outlives: the robot starts the box anew.
+         "\n[[fault]]\nkind = \"black\"\nat_s = 20\nfor_s = 1.5" +
          "\n[[step]]\nrest_s = " + std::to_string(kRest_s) +
          "\n[[step]]\ntour = [[40, 60], [64, 99]]\nclaim = false\npause_s = " +
          std::to_string(pause_s) + "\n";
@@ -88,6 +90,26 @@ class RobotMission : public ::testing::Test {
   [[nodiscard]] core::TubeAddress true_tube(std::int64_t slot) {
     return world_->truth_of(std::clamp<std::int64_t>(slot, 0, world_->slots() - 1))
         .axis.nearest.address;
+  }
+
+  /// A line for each rest of the tool: first and last slot, row, column.
+  [[nodiscard]] std::string rests() {
+    constexpr std::int64_t kStep = 6;  // a tenth of a second
+    std::string text;
+    std::int64_t first = -1;
+    for (std::int64_t slot = 0; slot < world_->slots(); slot += kStep) {
+      const drivers::FieldTruth truth = world_->truth_of(slot);
+      const bool rests = truth.speed_mm_s < 0.01;
+      if (rests && first < 0) {
+        first = slot;
+      } else if (!rests && first >= 0) {
+        const core::TubeAddress tube = true_tube(slot - kStep);
+        text += std::to_string(first) + " " + std::to_string(slot - kStep) + " " +
+                std::to_string(tube.row) + " " + std::to_string(tube.column) + "\n";
+        first = -1;
+      }
+    }
+    return text;
   }
 
   void judge(const MissionLog& log, const MissionClaim& claim, Tally& tally) {
@@ -146,13 +168,15 @@ void print_figures(const MissionLog& log, const Tally& tally, const std::string&
   std::printf(
       "mission: %.0f s, %zu claims and %zu polls: %d AGREE, %d DISAGREE, %d CANNOT SAY (%d too "
       "old), %d wrong\n"
+      "restarts: %zu, %zu of them taken; without a track in %zu polls\n"
       "fields: %lld, %lld did not come (%lld made too late by the source), %lld later than the "
       "deadline\n"
       "grab to sighting: median %lld us, 99 %% %lld us, worst %lld us\n"
       "claims: judged by a field %.1f ms (median), %.1f ms (worst) from their instant\n"
       "link: %lld requests, answered within %lld us, claims within %lld us\n",
       mission_s(), log.claims().size(), log.polls().size(), tally.verdicts[1], tally.verdicts[2],
-      tally.verdicts[3], tally.too_old, tally.wrong, static_cast<long long>(health.fields),
+      tally.verdicts[3], tally.too_old, tally.wrong, log.restarts().size(), log.restarts_taken(),
+      log.polls_while_lost(), static_cast<long long>(health.fields),
       static_cast<long long>(health.missing),
       static_cast<long long>(number_in(status, "source", "made_late")),
       static_cast<long long>(health.late),
@@ -165,12 +189,14 @@ void print_figures(const MissionLog& log, const Tally& tally, const std::string&
 }
 
 TEST_F(RobotMission, EveryClaimIsJudgedAtItsOwnInstantAndNoFieldIsDropped) {
+  box_.folder().write("rests", rests());
   ASSERT_TRUE(box_.start_and_wait()) << box_.said();
 
   const Answered run =
       run_program("/usr/bin/python3",
                   {"-B", TUBESIGHT_SOURCE_DIR "/tests/system/mission_robot.py",
-                   TUBESIGHT_SOURCE_DIR "/docs/examples", line_, std::to_string(mission_s())});
+                   TUBESIGHT_SOURCE_DIR "/docs/examples", line_, std::to_string(mission_s()),
+                   box_.folder().path("rests"), std::to_string(span_us())});
   const std::string status = box_.ask({"status", "--json"}).out;
 
   ASSERT_EQ(run.status, 0) << run.err << box_.said();
@@ -190,6 +216,7 @@ TEST_F(RobotMission, EveryClaimIsJudgedAtItsOwnInstantAndNoFieldIsDropped) {
   // On its way from tube to tube it can vouch for none.
   EXPECT_GT(tally.verdicts[1], claims / 5);
   EXPECT_GT(tally.verdicts[2], claims / 5);
+  EXPECT_GE(log.restarts_taken(), 1U) << "after the black stretch";
   EXPECT_EQ(log.health().exceptions, 0);
   EXPECT_EQ(log.health().crc_errors, 0);
   EXPECT_GT(log.health().requests, 2 * claims);
@@ -198,12 +225,13 @@ TEST_F(RobotMission, EveryClaimIsJudgedAtItsOwnInstantAndNoFieldIsDropped) {
   ASSERT_GE(made_late, 0) << status;
   if (made_late == 0) {
     EXPECT_EQ(log.health().missing, 0);
+    EXPECT_EQ(log.restarts_taken(), 1U) << "lost without a reason";
   }
 }
 
 /// A log by hand: field 30 was exposed at 1 s, the tool rests under (40, 60).
 std::string log_with(const std::string& claim) {
-  return "P 1004500 1005500 767 30 5 40,60 1\n" + claim + "\n";
+  return "P 1004500 1005500 767 30 5 40,60 1 1\n" + claim + "\n";
 }
 
 TEST_F(RobotMission, AWrongVerdictOrAnotherInstantWouldBeFound) {
