@@ -9,8 +9,9 @@
 namespace tubesight::board {
 
 /// The keys of `[source]` that a camera behind V4L2 has, and others do not.
-inline constexpr std::array<std::string_view, 8> kV4l2Keys = {
-    "device", "format", "fields", "input", "standard", "fields_per_s", "exposure_ms", "controls"};
+inline constexpr std::array<std::string_view, 9> kV4l2Keys = {
+    "device",       "format",      "fields", "input",   "standard",
+    "fields_per_s", "exposure_ms", "stamps", "controls"};
 
 /// Reads them; mistakes go to the reader's problems. What comes from the session is left as it is.
 void read_v4l2(drivers::TableReader& table, drivers::V4l2Settings& camera);
