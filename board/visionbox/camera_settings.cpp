@@ -16,6 +16,7 @@ constexpr std::array<std::string_view, 6> kFormats = {"GREY", "NV12", "YUYV", "U
 constexpr std::array<std::string_view, 4> kFields = {"any", "interlaced", "alternate",
                                                      "sequential"};
 constexpr std::array<std::string_view, 2> kStandards = {"NTSC", "PAL"};
+constexpr std::array<std::string_view, 2> kStamps = {"driver", "arrival"};
 constexpr drivers::NumberRange kFieldsPerS{1.0, 1000.0, " a second"};
 constexpr drivers::NumberRange kExposure{0.001, 1000.0, " ms"};
 
@@ -101,6 +102,10 @@ void read_v4l2(TableReader& table, drivers::V4l2Settings& camera) {
   table.optional_text("input", camera.input);
   table.optional_number("fields_per_s", kFieldsPerS, camera.fields_per_s);
   table.optional_number("exposure_ms", kExposure, camera.exposure_ms);
+  index = 0;
+  if (table.optional_word("stamps", kStamps, index)) {
+    camera.use_stamps = index == 0;
+  }
   read_controls(table, camera.controls);
   for (const std::string_view key : {"format", "standard"}) {
     table.ignore(key);

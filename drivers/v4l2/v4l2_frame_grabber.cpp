@@ -238,6 +238,9 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
     last_buffer_ = clock_->now();
     settled_ = true;
     held_ = buffer.index;
+    if (!settings_.use_stamps) {
+      buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
+    }
     fields_left_ = fields_a_buffer();
     next_ = judge_.first_field(buffer, {last_buffer_, backlog_}, no_signal_);
     return true;

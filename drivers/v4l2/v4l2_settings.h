@@ -34,6 +34,7 @@ struct V4l2Settings {
   std::string standard;       ///< "NTSC", "PAL"; empty: as it is
   double fields_per_s = 0.0;  ///< 0: as the driver says
   double exposure_ms = 0.0;   ///< 0: a field's whole time
+  bool use_stamps = true;     ///< no: a driver's that are known to be wrong, by arrival alone
   std::vector<ControlSetting> controls;
   std::int32_t width_px = 0;   ///< of the full frame
   std::int32_t height_px = 0;  ///< of the full frame

@@ -99,6 +99,85 @@ TEST_F(BoxSettingsTest, EveryMistakeIsToldAtOnceWithItsLine) {
   EXPECT_EQ(messages_.size(), 11U);
 }
 
+<<<<<<< HEAD
+=======
+constexpr const char* kCamera = "[source]\nkind = \"v4l2\"\ndevice = \"serial:12\"\n";
+
+TEST_F(BoxSettingsTest, ACameraNeedsItsNameAlone) {
+  ASSERT_TRUE(load(kCamera)) << messages_.front();
+
+  EXPECT_EQ(box_->source.kind, SourceKind::kV4l2);
+  const drivers::V4l2Settings& camera = box_->source.v4l2;
+  EXPECT_EQ(camera.device, "serial:12");
+  EXPECT_EQ(camera.format, "");
+  EXPECT_EQ(camera.fields, drivers::FieldLayout::kAny);
+  EXPECT_EQ(camera.width_px, box_->told().camera.width_px) << "of the session";
+  EXPECT_EQ(camera.height_px, box_->told().camera.height_px);
+  EXPECT_EQ(camera.scan, box_->told().camera.scan);
+  EXPECT_EQ(camera.serial, "") << "the calibration names none";
+}
+
+TEST_F(BoxSettingsTest, EveryKeyOfACameraIsRead) {
+  ASSERT_TRUE(load(std::string(kCamera) +
+                   "format = \"Y10\"\nfields = \"alternate\"\ninput = \"S-Video\"\n"
+                   "standard = \"PAL\"\nfields_per_s = 50\nexposure_ms = 2.5\n"
+                   "controls = [\"Gain = 20\", \" Exposure Mode=Manual Mode \"]\n"
+                   "stamps = \"arrival\"\n"
+                   "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\n"))
+      << messages_.front();
+
+  const drivers::V4l2Settings& camera = box_->source.v4l2;
+  EXPECT_EQ(camera.format, "Y10");
+  EXPECT_EQ(camera.fields, drivers::FieldLayout::kAlternate);
+  EXPECT_EQ(camera.input, "S-Video");
+  EXPECT_EQ(camera.standard, "PAL");
+  EXPECT_EQ(camera.fields_per_s, 50.0);
+  EXPECT_EQ(camera.exposure_ms, 2.5);
+  EXPECT_FALSE(camera.use_stamps);
+  ASSERT_EQ(camera.controls.size(), 2u);
+  EXPECT_EQ(camera.controls[0].name, "Gain");
+  EXPECT_EQ(camera.controls[0].value, "20");
+  EXPECT_EQ(camera.controls[1].name, "Exposure Mode");
+  EXPECT_EQ(camera.controls[1].value, "Manual Mode");
+  EXPECT_EQ(camera.serial, "4711") << "of the calibration";
+}
+
+TEST_F(BoxSettingsTest, ACameraIsNamedByWhatStays) {
+  for (const char* name : {"/dev/video0", "serial:", "bus:", "video0", ""}) {
+    EXPECT_FALSE(load(std::string("[source]\nkind = \"v4l2\"\ndevice = \"") + name + "\"\n"));
+    EXPECT_TRUE(told("source.device: '" + std::string(name) +
+                     "' is another camera after the next start, expected serial:NUMBER"));
+  }
+  for (const char* name : {"/dev/v4l/by-path/a", "/dev/v4l/by-id/b", "bus:usb-1"}) {
+    EXPECT_TRUE(load(std::string("[source]\nkind = \"v4l2\"\ndevice = \"") + name + "\"\n"));
+  }
+}
+
+TEST_F(BoxSettingsTest, MistakesOfACameraAreTold) {
+  EXPECT_FALSE(
+      load("[source]\nkind = \"v4l2\"\nformat = \"MJPG\"\nfields = \"odd\"\n"
+           "standard = \"SECAM\"\nfields_per_s = 0\nexposure_ms = -1\n"
+           "controls = [\"Gain\"]\nrecording = \"recording.y4m\"\nat_end = \"end\"\n"));
+
+  EXPECT_TRUE(told("source.device: "));
+  EXPECT_TRUE(told("box.toml:4: source.format: "));
+  EXPECT_TRUE(told("box.toml:5: source.fields: "));
+  EXPECT_TRUE(told("box.toml:6: source.standard: "));
+  EXPECT_TRUE(told("box.toml:7: source.fields_per_s: "));
+  EXPECT_TRUE(told("box.toml:8: source.exposure_ms: "));
+  EXPECT_TRUE(told("box.toml:9: source.controls: 'Gain', expected \"NAME = VALUE\""));
+  EXPECT_TRUE(told("box.toml:10: source.recording: of another kind of source"));
+  EXPECT_TRUE(told("box.toml:11: source.at_end: of another kind of source"));
+  EXPECT_EQ(messages_.size(), 9U);
+}
+
+TEST_F(BoxSettingsTest, APlayedSourceHasNoKeysOfACamera) {
+  EXPECT_FALSE(load(std::string(kSource) + "device = \"serial:12\"\n"));
+
+  EXPECT_TRUE(told("source.device: of another kind of source, expected it left out"));
+}
+
+>>>>>>> rev13
 TEST_F(BoxSettingsTest, ALampOnPwmIsRead) {
   ASSERT_TRUE(load(std::string(kCamera) +
                    "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\n"

@@ -1,5 +1,7 @@
 #include "board/visionbox/lamp_keeper.h"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <string>
@@ -197,6 +199,46 @@ TEST_F(LampKeeperTest, NoMoreShinesThanMay) {
   EXPECT_EQ(keeper_.level_permille(), 800) << "what is wanted is not forgotten";
   keeper_.set_most(1000);
   EXPECT_TRUE(within_two_seconds([&] { return lamp_.last() == 800; }));
+}
+
+TEST_F(LampKeeperTest, AnEndInTheMiddleOfALeadGoesDownFromThere) {
+  ASSERT_TRUE(keeper_.start());
+  ASSERT_TRUE(keeper_.set_level(1000));
+  ASSERT_TRUE(within_two_seconds([&] { return lamp_.last() > 200; }));
+  keeper_.stop();
+
+  const auto levels = lamp_.levels();
+  const auto highest = std::max_element(levels.begin(), levels.end());
+  EXPECT_TRUE(std::is_sorted(highest, levels.end(), std::greater<>()));
+  EXPECT_EQ(*(levels.end() - 2), 0);
+  EXPECT_EQ(levels.back(), -1);
+}
+
+// The tracking thread asks for a level with each field, the box for a limit, others for the report,
+// and the device comes and goes.
+TEST_F(LampKeeperTest, AStormOfLevelsEndsInTheDark) {
+  ASSERT_TRUE(keeper_.start());
+  std::atomic<bool> ended{false};
+  std::thread limits([&] {
+    for (int i = 0; !ended; ++i) {
+      keeper_.set_most(i % 2 == 0 ? 300 : 1000);
+      lamp_.broken_ = i % 50 == 49;
+      EXPECT_LE(keeper_.report().level_permille, 1000);
+    }
+  });
+  const MonotonicTime end = monotonic_now() + milliseconds(300);
+  for (int i = 0; monotonic_now() < end; ++i) {
+    static_cast<void>(keeper_.set_level(i % 3 * 500));
+    const std::int32_t level = keeper_.level_permille_at(monotonic_now() - milliseconds(i % 40));
+    EXPECT_TRUE(level >= 0 && level <= 1000);
+  }
+  ended = true;
+  limits.join();
+  lamp_.broken_ = false;
+  keeper_.stop();
+
+  EXPECT_LE(lamp_.last(), 0) << "dark, or stopped";
+  EXPECT_FALSE(lamp_.started_);
 }
 
 TEST_F(LampKeeperTest, MakingDarkIsAStartAndAStop) {

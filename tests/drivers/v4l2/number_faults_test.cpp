@@ -102,6 +102,18 @@ TEST_F(NumbersAndStamps, StampsOfAnotherClockThatTheDriverNamesAreNotListenedTo)
   EXPECT_FALSE(bench_.report().stamps);
 }
 
+TEST(WithoutStamps, ADriverWhoseClockIsInThePastMayBeLeftUnheard) {
+  drivers::V4l2Settings settings = settings_of();
+  settings.use_stamps = false;
+  CameraBench bench(settings);
+  bench.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) { buffer.timestamp.tv_sec -= 900; };
+  ASSERT_TRUE(bench.grabber().start());
+
+  EXPECT_TRUE(bench.good_within(1));
+  EXPECT_FALSE(bench.report().stamps);
+  EXPECT_EQ(bench.counters().without_stamp, 1);
+}
+
 // Of ten seconds in which the program stood still there are six buffers, and nothing says how old.
 TEST_F(NumbersAndStamps, WithoutStampsWhatLayThereIsDamaged) {
   bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
