@@ -133,31 +133,53 @@ if(CMAKE_BUILD_TYPE MATCHES "^Rel" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(tubesight_tracking_path_options -Wframe-larger-than=4096 -fcallgraph-info=su)
 endif()
 
-# Each header must compile alone. One that a source of its name includes before anything else has been
-# compiled alone with that source, so long as sources are not joined; the target
-# all_verify_interface_header_sets compiles the others.
-function(tubesight_verify_headers target scope headers sources)
-  if(TUBESIGHT_VERIFY_EVERY_HEADER OR "product" IN_LIST TUBESIGHT_JOIN_SOURCES)
-    return()
-  endif()
-  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
-  set(alone)
-  foreach(header IN LISTS headers)
-    string(REGEX REPLACE "\\.h$" ".cpp" source ${header})
-    set(first)
-    if(source IN_LIST sources)
-      file(STRINGS ${source} first REGEX "^ *# *include" LIMIT_COUNT 1)
-    endif()
-    if(NOT first STREQUAL "#include \"${folder}/${header}\"")
-      list(APPEND alone ${header})
+# What nearly every source of the product includes, read once: compiled as core and drivers are, and as
+# boards are. (tests/support/ has that of the tests.) Optimised, g++ 12 sees errors in a precompiled
+# std::string that are none: there, drivers and boards do without.
+function(tubesight_add_precompiled_headers)
+  foreach(floor IN ITEMS core board)
+    if(floor IN_LIST TUBESIGHT_PRECOMPILE_HEADERS)
+      find_package(Eigen3 REQUIRED NO_MODULE)
+      set(target tubesight_precompiled_${floor})
+      set(source ${PROJECT_BINARY_DIR}/precompiled_${floor}.cpp)
+      file(CONFIGURE OUTPUT ${source} CONTENT "// The headers are all there is.\n")
+      add_library(${target} OBJECT ${source})
+      target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/toolchain/precompiled_headers.h)
+      target_link_libraries(${target} PRIVATE
+        tubesight::warnings tubesight::build_options Eigen3::Eigen)
     endif()
   endforeach()
-  if(alone)
-    target_sources(${target} ${scope}
-      FILE_SET alone TYPE HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${alone})
-    set_target_properties(${target} PROPERTIES INTERFACE_HEADER_SETS_TO_VERIFY alone)
-  else()
-    set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS OFF)
+  if(TARGET tubesight_precompiled_core)
+    target_compile_options(tubesight_precompiled_core PRIVATE
+      -fno-exceptions -fno-rtti ${tubesight_core_warnings})
+  endif()
+endfunction()
+tubesight_add_precompiled_headers()
+
+# Each header must compile alone. The target `headers` sees to that, with a few headers a compilation
+# (chain_headers.py says which may stand together); all_verify_interface_header_sets takes one at a time
+# where TUBESIGHT_VERIFY_EVERY_HEADER says so. Called when all libraries are known.
+function(tubesight_add_header_check)
+  get_property(headers GLOBAL PROPERTY TUBESIGHT_HEADERS)
+  get_property(libraries GLOBAL PROPERTY TUBESIGHT_LIBRARIES)
+  list(JOIN headers "\n" lines)
+  set(folder ${PROJECT_BINARY_DIR}/headers)
+  file(WRITE ${folder}/headers.txt "${lines}\n")
+  execute_process(
+    COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/toolchain/chain_headers.py
+      ${PROJECT_SOURCE_DIR} ${folder}/headers.txt ${folder}
+    OUTPUT_VARIABLE number
+    COMMAND_ERROR_IS_FATAL ANY)
+  math(EXPR last "${number} - 1")
+  set(sources)
+  foreach(index RANGE ${last})
+    list(APPEND sources ${folder}/headers_${index}.cpp)
+  endforeach()
+  add_library(headers OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(headers PRIVATE tubesight::build_options ${libraries})
+  target_compile_options(headers PRIVATE -O0 -g0)
+  if(tubesight_launcher)
+    set_target_properties(headers PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
   endif()
 endfunction()
 
@@ -188,13 +210,19 @@ function(tubesight_add_library path)
   if(arg_HEADERS)
     target_sources(${target} ${scope}
       FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${arg_HEADERS})
-    tubesight_verify_headers(${target} ${scope} "${arg_HEADERS}" "${arg_SOURCES}")
+    list(TRANSFORM arg_HEADERS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    set_property(GLOBAL APPEND PROPERTY TUBESIGHT_HEADERS ${arg_HEADERS})
+    set_property(GLOBAL APPEND PROPERTY TUBESIGHT_LIBRARIES ${target})
   endif()
   if(arg_SOURCES)
     if("product" IN_LIST TUBESIGHT_JOIN_SOURCES)
       tubesight_join_sources(${target})
     endif()
-    if(tubesight_launcher AND NOT arg_TRACKING_PATH)
+    string(REGEX MATCH "^[a-z]+" floor "${path}")
+    if(floor IN_LIST TUBESIGHT_PRECOMPILE_HEADERS)
+      string(REPLACE "drivers" "core" floor ${floor})
+      target_precompile_headers(${target} REUSE_FROM tubesight_precompiled_${floor})
+    elseif(tubesight_launcher AND NOT arg_TRACKING_PATH)
       set_target_properties(${target} PROPERTIES CXX_COMPILER_LAUNCHER ${tubesight_launcher})
     endif()
   endif()
@@ -247,8 +275,8 @@ function(tubesight_add_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE
     tubesight::warnings tubesight::build_options ${arg_LINKS} GTest::gtest_main)
-  if(TUBESIGHT_PRECOMPILE_TEST_HEADERS)
-    target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_headers)
+  if("tests" IN_LIST TUBESIGHT_PRECOMPILE_HEADERS)
+    target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_tests)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       target_compile_options(${name} PRIVATE

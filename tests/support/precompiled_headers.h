@@ -1,6 +1,6 @@
-// What nearly every test includes: read once, not once a test, under the sanitizers (where
-// TUBESIGHT_PRECOMPILE_TEST_HEADERS says so). Optimised, g++ 12 sees errors in a precompiled
-// std::string that are none: preset bench compiles each test without this, and with all warnings.
+// What nearly every test includes: read once, not once a test (TUBESIGHT_PRECOMPILE_HEADERS).
+// Optimised, g++ 12 sees errors in a precompiled std::string that are none: preset bench-long
+// compiles each test without this, and with all warnings.
 #pragma once
 
 #include <algorithm>
