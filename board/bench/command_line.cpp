@@ -284,6 +284,17 @@ CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
   return campaign;
 }
 
+CLI::App* add_devices(CLI::App& app, DevicesOptions& options) {
+  CLI::App* const devices = app.add_subcommand(
+      "devices",
+      "Cameras, GPIO and PWM chips and serial ports of this machine, as the settings of a box name "
+      "them");
+  devices->add_flag("--network", options.network,
+                    "Look for cameras of GigE Vision and USB3 Vision, too: by a broadcast on every "
+                    "network of this machine");
+  return devices;
+}
+
 CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   CLI::App* const simulate = app.add_subcommand(
       "simulate", "A steam generator on the bench: a recording of a scenario, with its truth");
@@ -338,17 +349,15 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
   const CLI::App* const simulate = add_simulate(app, simulate_options);
-  const CLI::App* const devices = app.add_subcommand(
-      "devices",
-      "Cameras, GPIO and PWM chips and serial ports of this machine, as the settings of a box name "
-      "them");
+  DevicesOptions devices_options;
+  const CLI::App* const devices = add_devices(app, devices_options);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return answer(app, problem);
   }
   if (devices->parsed()) {
-    return run_devices();
+    return run_devices(devices_options);
   }
   if (pose->parsed()) {
     return run_pose(pose_options);

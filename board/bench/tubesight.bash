@@ -52,7 +52,7 @@ _tubesight() {
       taking+=" --replay-move --out"
       ;;
     devices)
-      options="-h --help"
+      options="-h --help --network"
       taking=""
       ;;
     *) return ;;

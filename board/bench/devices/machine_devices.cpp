@@ -40,6 +40,23 @@ std::string cameras_text(const std::vector<drivers::v4l2::CameraInfo>& cameras) 
   return text;
 }
 
+std::string network_cameras_text(const std::vector<drivers::aravis::CameraInfo>& cameras) {
+  if (cameras.empty()) {
+    return "no network cameras\n";
+  }
+  std::string text = "network cameras, by the device to write into [source]:\n";
+  for (const drivers::aravis::CameraInfo& camera : cameras) {
+    // What is plugged into USB has no address of a network.
+    const bool of_network = camera.protocol == "GigEVision";
+    const std::string serial = camera.serial.empty() ? "" : "serial:" + camera.serial;
+    text += "  " + (of_network ? "address:" + camera.address : serial) + "\n      " +
+            camera.maker_and_model + ", " + camera.protocol + "\n";
+    text += of_network && !serial.empty() ? "      also " + serial + "\n" : "";
+    text += serial.empty() ? "      says no serial number\n" : "";
+  }
+  return text;
+}
+
 std::string gpio_text(const std::vector<drivers::GpioChip>& chips) {
   if (chips.empty()) {
     return "no GPIO chips\n";

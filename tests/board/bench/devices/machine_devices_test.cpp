@@ -5,6 +5,22 @@
 namespace tubesight::board {
 namespace {
 
+TEST(MachineDevices, NetworkCamerasAreListedByAddressAndThoseOfUsbByNumber) {
+  EXPECT_EQ(network_cameras_text({{"21877", "192.168.1.20", "Maker Model", "GigEVision"},
+                                  {"", "192.168.1.21", "Maker Other", "GigEVision"},
+                                  {"A-3", "USB3", "Maker Third", "USB3Vision"}}),
+            "network cameras, by the device to write into [source]:\n"
+            "  address:192.168.1.20\n"
+            "      Maker Model, GigEVision\n"
+            "      also serial:21877\n"
+            "  address:192.168.1.21\n"
+            "      Maker Other, GigEVision\n"
+            "      says no serial number\n"
+            "  serial:A-3\n"
+            "      Maker Third, USB3Vision\n");
+  EXPECT_EQ(network_cameras_text({}), "no network cameras\n");
+}
+
 TEST(MachineDevices, ACameraIsListedByWhatStaysWithWhatItOffers) {
   drivers::v4l2::CameraInfo grabber;
   grabber.node = "/dev/video0";
