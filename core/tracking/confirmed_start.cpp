@@ -14,7 +14,8 @@ namespace {
 template <Scalar S>
 bool confirms_clicks(const TrackingModel<S>& model, const Observation<S>& seen,
                      const StartClickList& clicks) {
-  if (seen.fit.rms_px > Px<S>(1)) {
+  // As ragged as the sheet is: a pixel in usual pictures, as many more in larger ones.
+  if (seen.fit.rms_px > from_scaled<Px<S>>(model.reading_step_px, 0)) {
     return false;
   }
   for (const StartClick& click : clicks) {

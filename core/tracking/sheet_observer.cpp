@@ -21,13 +21,19 @@ M bisected_mm() {
 
 // Lean 0.5 degrees always; turn 0.1 degrees and height 0.5 mm from field to field, once a motion
 // predicts them: kEdgeDeviation^2 / sigma^2.
+//
+// Against edges of 0.2 px in usual pictures. In larger ones an edge is off by what the sheet's
+// tube-ends are off their places rather than by noise, in as many more pixels.
 template <Scalar S>
-PosePrior<S> prior_of(const Expectation<S>& expected) {
+PosePrior<S> prior_of(const TrackingModel<S>& model, const Expectation<S>& expected) {
+  using M = Mm<S>;
+  const std::int32_t step = model.reading_step_px;
+  const auto scaled = [step](M weight) { return times(weight, from_scaled<M>(step * step, 0)); };
   PosePrior<S> prior;
-  prior.lean_weight = constant<Mm<S>>(0.032);
+  prior.lean_weight = scaled(constant<M>(0.032));
   if (expected.from_motion) {
-    prior.turn_weight = constant<Mm<S>>(0.8);
-    prior.height_weight = constant<Mm<S>>(0.16);
+    prior.turn_weight = scaled(constant<M>(0.8));
+    prior.height_weight = scaled(constant<M>(0.16));
   }
   return prior;
 }
@@ -72,7 +78,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     constexpr std::int32_t kBisectedRange = 6;
     range_px = kBisectedRange * step_px;
   }
-  const FindingCount found = measure(field, range_px, prior_of<S>(expected), seen);
+  const FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
   seen.contradiction = found.bright > std::max(seen.fit.used, 2) ||
                        (expected.confirm_all && 2 * found.measured < found.looked_at);
