@@ -9,20 +9,13 @@
 
 namespace tubesight::board {
 
-<<<<<<< HEAD
 /// The keys of `[source]` that cameras of all kinds have, and those that one kind alone has.
 inline constexpr std::array<std::string_view, 4> kCameraKeys = {"device", "format", "fields_per_s",
                                                                 "exposure_ms"};
-inline constexpr std::array<std::string_view, 4> kV4l2Keys = {"fields", "input", "standard",
-                                                              "controls"};
+inline constexpr std::array<std::string_view, 5> kV4l2Keys = {"fields", "input", "standard",
+                                                              "stamps", "controls"};
 inline constexpr std::array<std::string_view, 8> kAravisKeys = {
     "left_px", "top_px", "binning", "gain", "trigger", "packet_bytes", "resend", "readout_ms"};
-=======
-/// The keys of `[source]` that a camera behind V4L2 has, and others do not.
-inline constexpr std::array<std::string_view, 9> kV4l2Keys = {
-    "device",       "format",      "fields", "input",   "standard",
-    "fields_per_s", "exposure_ms", "stamps", "controls"};
->>>>>>> rev13
 
 /// Read the keys; mistakes go to the reader's problems. What comes from the session is left as it
 /// is.

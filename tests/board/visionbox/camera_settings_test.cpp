@@ -30,6 +30,7 @@ TEST_F(CameraSettingsTest, EveryKeyOfACameraIsRead) {
                    "format = \"Y10\"\nfields = \"alternate\"\ninput = \"S-Video\"\n"
                    "standard = \"PAL\"\nfields_per_s = 50\nexposure_ms = 2.5\n"
                    "controls = [\"Gain = 20\", \" Exposure Mode=Manual Mode \"]\n"
+                   "stamps = \"arrival\"\n"
                    "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\n"))
       << messages_.front();
 
@@ -40,6 +41,7 @@ TEST_F(CameraSettingsTest, EveryKeyOfACameraIsRead) {
   EXPECT_EQ(camera.standard, "PAL");
   EXPECT_EQ(camera.fields_per_s, 50.0);
   EXPECT_EQ(camera.exposure_ms, 2.5);
+  EXPECT_FALSE(camera.use_stamps);
   ASSERT_EQ(camera.controls.size(), 2u);
   EXPECT_EQ(camera.controls[0].name, "Gain");
   EXPECT_EQ(camera.controls[0].value, "20");
