@@ -87,7 +87,7 @@ std::size_t MissionLog::restarts_taken() const {
 }
 
 std::size_t MissionLog::polls_while_lost() const {
-  constexpr std::int32_t kLost = 3;
+  constexpr std::int32_t kLost = 4;
   return static_cast<std::size_t>(std::count_if(
       polls_.begin(), polls_.end(), [](const MissionPoll& poll) { return poll.state == kLost; }));
 }

@@ -25,7 +25,7 @@ import robot  # noqa: E402
 
 RATE = 20
 AGES_MS = (0, 0, 40, 120, 0, 200, 0, 300)  # the last is older than the box answers for
-LOST = 3  # state
+LOST = 4  # state
 Seen = collections.namedtuple("Seen", "at_us tube")
 Polled = collections.namedtuple("Polled", "at_us tube field lost")
 
