@@ -147,6 +147,19 @@ class RimFit {
   Mm<S> mean_square_{};
 };
 
+// Whether the rim that was found is the tube-end's.
+template <Scalar S>
+bool is_its_rim(const Shift<S>& shift, Mm<S> mean_square, const MeasurementBounds& bounds) {
+  using M = Mm<S>;
+  const M range = from_scaled<M>(bounds.range_px, 0);
+  // A rim 2.75 px wider per 32 px is not: a plug's hole, the outside of a weld.
+  const M widest = constant<M>(2.75);
+  // What makes a rim ragged is of the sheet: as many more pixels as the picture has more.
+  const M ragged = times(constant<M>(0.5), from_scaled<M>(bounds.step_px * bounds.step_px, 0));
+  return absolute(shift.du) <= range && absolute(shift.dv) <= range &&
+         absolute(shift.growth) <= widest && mean_square <= ragged;
+}
+
 constexpr std::int32_t kLeastEdges = kRimPoints * 5 / 8;
 
 }  // namespace
@@ -155,7 +168,6 @@ template <Scalar S>
 Finding measure_tube(const FieldView& field, const RimOutline<S>& outline,
                      const MeasurementBounds& bounds, edges::DynamicThreshold& threshold,
                      TubeMeasurement<S>& result) {
-  using M = Mm<S>;
   RimFit<S> rim;
   std::int32_t outside = 0;
   std::int32_t missed = 0;
@@ -194,13 +206,7 @@ Finding measure_tube(const FieldView& field, const RimOutline<S>& outline,
   if (!shift) {
     return Finding::kDisagrees;
   }
-  const M range = from_scaled<M>(bounds.range_px, 0);
-  // A rim 2.75 px wider per 32 px is not this tube-end's: a plug's hole, the outside of a weld.
-  const M widest = constant<M>(2.75);
-  // What makes a rim ragged is of the sheet: as many more pixels as the picture has more.
-  const M ragged = times(constant<M>(0.5), from_scaled<M>(bounds.step_px * bounds.step_px, 0));
-  if (absolute(shift->du) > range || absolute(shift->dv) > range ||
-      absolute(shift->growth) > widest || rim.mean_square() > ragged) {
+  if (!is_its_rim<S>(*shift, rim.mean_square(), bounds)) {
     return Finding::kDisagrees;
   }
   result.center_px = {result.predicted_px.x + convert<Px<S>>(shift->du),

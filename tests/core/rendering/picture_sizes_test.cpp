@@ -186,6 +186,28 @@ TEST_P(PictureSizes, AreTrackedRightlyThroughAMove) {
   RecordProperty("offset_rms_um", static_cast<int>(1000.0 * offset_rms_mm()));
 }
 
+class UnevenSheet : public PictureSizes {};
+
+// Its tube-ends are off by more pixels in a larger picture, and by no more of the sheet.
+TEST_P(UnevenSheet, IsStartedOnAndTracked) {
+  Scene& scene = sheet_.scene();
+  scene.look.bore_spread_mm = 0.12;
+  for (const DisplacedTube& tube :
+       {DisplacedTube{{39, 60}, {0.5, 0.3, -0.8}}, DisplacedTube{{40, 62}, {-0.4, 0.4, -1.0}},
+        DisplacedTube{{41, 61}, {0.0, -0.5, 0.6}}}) {
+    ASSERT_TRUE(scene.displaced.try_push_back(tube));
+  }
+  run();
+
+  EXPECT_NEAR(aligned_, truly_aligned_, 2);
+  EXPECT_LT(offset_rms_mm(), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, UnevenSheet,
+                         ::testing::Values(Size{640, 480, Scan::kProgressive, 60},
+                                           Size{1920, 1200, Scan::kEvenFirst, 60}),
+                         ::testing::PrintToStringParamName());
+
 INSTANTIATE_TEST_SUITE_P(All, PictureSizes,
                          ::testing::Values(Size{320, 240, Scan::kEvenFirst, 60},
                                            Size{320, 240, Scan::kProgressive, 30},
