@@ -169,6 +169,9 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_session(document, kBoxNeeds, box.session);
   tell(box.session, box.source.v4l2);
   tell(box.session, box.source.aravis);
+  // What is not received in time is lost, so this goes before the tracking.
+  const std::int32_t priority = box.real_time.priority;
+  box.source.aravis.priority = priority > 0 ? std::min(priority + 1, kPriority.most) : 0;
   if (document.problems().empty() &&
       !std::make_unique<core::session::Session<core::FixedPoint>>()->configure(
           box.session.settings)) {

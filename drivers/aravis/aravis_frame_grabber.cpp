@@ -84,8 +84,8 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
     grey_.resize(static_cast<std::size_t>(agreed_.width_px) *
                  static_cast<std::size_t>(agreed_.height_px));
   }
-  const aravis::StreamPlan plan{pool_, agreed_.buffer_bytes, buffers, settings_.resend,
-                                agreed_.frame()};
+  const aravis::StreamPlan plan{pool_,           agreed_.buffer_bytes, buffers, settings_.resend,
+                                agreed_.frame(), settings_.priority};
   std::string why;
   if (!device_->begin(plan, *clock_, why)) {
     message = "does not start to stream: " + why;

@@ -28,6 +28,7 @@ struct AravisSettings {
   std::int32_t width_px = 0;      ///< of the full frame
   std::int32_t height_px = 0;     ///< of the full frame
   core::Scan scan = core::Scan::kProgressive;
+  std::int32_t priority = 0;  ///< of the thread that receives: SCHED_FIFO; 0: as every other
 };
 
 }  // namespace tubesight::drivers

@@ -62,7 +62,8 @@ struct StreamPlan {
   std::size_t buffer_bytes = 0;  ///< of each
   std::int32_t buffers = 0;      ///< Device::kMostBuffers at most
   bool resend = false;
-  core::FieldTime frame{0};  ///< time from one picture to the next
+  core::FieldTime frame{0};   ///< time from one picture to the next
+  std::int32_t priority = 0;  ///< of the thread that receives: SCHED_FIFO; 0: as every other
 };
 
 /// An open camera, of which we are the controller.

@@ -77,6 +77,7 @@ class SystemDevice final : public Device {
   ArvStream* stream_ = nullptr;
   const hal::Clock* clock_ = nullptr;
   std::int32_t buffers_ = 0;
+  std::int32_t priority_ = 0;  ///< of the library's thread
   std::atomic<bool> running_{false};
   std::mutex queues_;  ///< the library's; never of the thread that takes
   std::array<ArvBuffer*, kMostBuffers> buffer_{};

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <ctime>
 
+#include <sched.h>
+
 #include "drivers/aravis/refusal.h"
 #include "drivers/aravis/system_device.h"
 
@@ -16,6 +18,11 @@ using core::FieldTime;
 constexpr FieldTime kRetentionWithResend = std::chrono::milliseconds(100);
 /// Where it does not: two pictures on nothing will come any more, but a slow host needs its time.
 constexpr FieldTime kShortestRetention = std::chrono::milliseconds(20);
+
+/// What the kernel may keep of what the library's thread has not read yet. It counts a packet's own
+/// memory too, up to twice its bytes, and gives no more than net.core.rmem_max.
+constexpr std::size_t kPicturesInSocket = 4;
+constexpr std::size_t kMostInSocket_bytes = std::size_t{32} << 20;
 
 std::intptr_t number_of(const Functions& arv, ArvBuffer* buffer) {
   return reinterpret_cast<std::intptr_t>(arv.arv_buffer_get_user_data(buffer));
@@ -37,8 +44,11 @@ ArvStream* SystemDevice::create_stream(const StreamPlan& plan, std::string& why)
         plan.resend ? kRetentionWithResend : std::max(2 * plan.frame, kShortestRetention);
     const auto retention_us = static_cast<guint>(
         std::chrono::duration_cast<std::chrono::microseconds>(retention).count());
+    const auto socket_bytes = static_cast<gint>(
+        std::min<std::size_t>(kPicturesInSocket * plan.buffer_bytes, kMostInSocket_bytes));
     arv_->g_object_set(stream, "frame-retention", retention_us, "socket-buffer",
-                       ARV_GV_STREAM_SOCKET_BUFFER_AUTO, nullptr);
+                       ARV_GV_STREAM_SOCKET_BUFFER_FIXED, "socket-buffer-size", socket_bytes,
+                       nullptr);
     // Cameras that cannot resend have been found out by the library; it knows better than to ask.
     if (!plan.resend) {
       arv_->g_object_set(stream, "packet-resend", ARV_GV_STREAM_PACKET_RESEND_NEVER, nullptr);
@@ -50,6 +60,7 @@ ArvStream* SystemDevice::create_stream(const StreamPlan& plan, std::string& why)
 bool SystemDevice::begin(const StreamPlan& plan, const hal::Clock& clock, std::string& why) {
   clock_ = &clock;
   buffers_ = plan.buffers;
+  priority_ = plan.priority;
   running_ = false;
   stream_ = create_stream(plan, why);
   if (stream_ == nullptr) {
@@ -126,6 +137,12 @@ void SystemDevice::on_control_lost(ArvDevice* /*device*/, void* self) {
 /// On the library's thread. Its first call comes before the stream is known, and brings no buffer.
 void SystemDevice::on_stream(void* self, ArvStreamCallbackType what, ArvBuffer* /*buffer*/) {
   auto* const device = static_cast<SystemDevice*>(self);
+  if (what == ARV_STREAM_CALLBACK_TYPE_INIT && device->priority_ > 0) {
+    // Where the system refuses, the tracking thread's own request has said so already.
+    sched_param wanted{};
+    wanted.sched_priority = device->priority_;
+    static_cast<void>(sched_setscheduler(0, SCHED_FIFO, &wanted));
+  }
   if (what != ARV_STREAM_CALLBACK_TYPE_BUFFER_DONE || !device->running_) {
     return;
   }

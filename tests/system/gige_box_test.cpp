@@ -43,11 +43,14 @@ class GigeBox : public testing::Test {
     camera_.show(frames_of(mission_.fields(), camera), camera, 8);
   }
 
+  /// A mission before a box that records it. `whole`: every field came in time and was good.
+  void play(bool& whole);
+
   RecordedSession mission_;
   GigeCamera camera_;
 };
 
-TEST_F(GigeBox, TracksAMissionAndReplaysItToTheByte) {
+void GigeBox::play(bool& whole) {
   ASSERT_TRUE(camera_.start()) << camera_.error();
   const support::TemporaryFolder folder;
   folder.write("box.toml", std::string("include = [\"") + kSessionFile + "\"]\n" + kSource +
@@ -69,6 +72,7 @@ TEST_F(GigeBox, TracksAMissionAndReplaysItToTheByte) {
       const core::Field& field = box.loop().input().field;
       drivers::append_fields_row(rows, field.number, field.parity, sighting);
       aligned += sighting.aligned ? 1 : 0;
+      whole = whole && field.status == FieldStatus::kGood;
     }
   };
 
@@ -76,15 +80,18 @@ TEST_F(GigeBox, TracksAMissionAndReplaysItToTheByte) {
   do {
     turns(1);
   } while (box.loop().input().field.status != FieldStatus::kGood && ++waited < 60);
+  whole = true;
   ASSERT_TRUE(box.station().submit(
       event_of(core::Start{settings->told().start.tubes, {}, false}, EventOrigin::kOperator)));
   turns(static_cast<int>(mission_.fields().size()));
-  EXPECT_EQ(box.loop().output().sighting.state, core::TrackState::kTracking) << told;
+  if (whole) {
+    EXPECT_EQ(box.loop().output().sighting.state, core::TrackState::kTracking) << told;
+    EXPECT_GE(aligned, 11) << "as in expected_fields.csv";
+  }
   static_cast<void>(box.request_recording());
   turns(8);
   box.stop();
 
-  EXPECT_GE(aligned, 11) << "as in expected_fields.csv";
   std::string name;
   for (const std::string& file : folder.names()) {
     name = file.ends_with("-command.y4m") ? file.substr(0, file.size() - 4) : name;
@@ -98,6 +105,16 @@ TEST_F(GigeBox, TracksAMissionAndReplaysItToTheByte) {
   replayed.erase(0, replayed.find('\n') + 1);
   EXPECT_GT(std::count(replayed.begin(), replayed.end(), '\n'), 50);
   EXPECT_NE(rows.find(replayed), std::string::npos) << "box:\n" << rows << "replay:\n" << replayed;
+}
+
+// In real time: on a busy machine fields come too late, and a track may be lost for it. What the
+// box says is replayed to the byte then, too; one of three times all of them are to come.
+TEST_F(GigeBox, TracksAMissionAndReplaysItToTheByte) {
+  bool whole = false;
+  for (int i = 0; i < 3 && !whole && !HasFailure(); ++i) {
+    play(whole);
+  }
+  EXPECT_TRUE(whole) << "this machine is too busy";
 }
 
 TEST_F(GigeBox, TheDaemonTakesACameraThatComesLateAndOneThatComesBack) {

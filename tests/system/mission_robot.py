@@ -25,7 +25,7 @@ import robot  # noqa: E402
 
 RATE = 20
 AGES_MS = (0, 0, 40, 120, 0, 200, 0, 300)  # the last is older than the box answers for
-LOST = 4  # state
+WAITING, LOST = 1, 4  # state
 Seen = collections.namedtuple("Seen", "at_us tube")
 Polled = collections.namedtuple("Polled", "at_us tube field lost")
 
@@ -43,7 +43,7 @@ def poll(master):
     field = robot.number(got, 12)
     print("P", sent, received, got[4], field, age, robot.text(tube), got[45], got[5])
     exposed = (sent + received) // 2 - 1000 * age if age >= 0 else None
-    return Polled(exposed, tube, field, got[5] == LOST)
+    return Polled(exposed, tube, field, got[5] in (WAITING, LOST))
 
 
 class Restarts:

@@ -130,6 +130,15 @@ TEST_F(CameraSettingsTest, EveryKeyOfAGigeCameraIsRead) {
   EXPECT_EQ(camera.serial, "A-12") << "of the calibration";
 }
 
+TEST_F(CameraSettingsTest, WhatReceivesGoesBeforeTheTracking) {
+  ASSERT_TRUE(load(kGigeCamera));
+  EXPECT_EQ(box_->source.aravis.priority, 51) << "the default's";
+  ASSERT_TRUE(load(std::string(kGigeCamera) + "[realtime]\npriority = 99\n"));
+  EXPECT_EQ(box_->source.aravis.priority, 99);
+  ASSERT_TRUE(load(std::string(kGigeCamera) + "[realtime]\npriority = 0\n"));
+  EXPECT_EQ(box_->source.aravis.priority, 0) << "like every other";
+}
+
 TEST_F(CameraSettingsTest, MistakesOfAGigeCameraAreTold) {
   EXPECT_FALSE(
       load("[source]\nkind = \"aravis\"\ndevice = \"address:camera7\"\nformat = \"BayerRG8\"\n"

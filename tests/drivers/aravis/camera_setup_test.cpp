@@ -46,6 +46,7 @@ TEST_F(GigeSetup, AllThatIsWantedIsSet) {
   settings_.gain = 3.0;
   settings_.packet_bytes = 1400;
   settings_.resend = true;
+  settings_.priority = 51;
   with(settings_, [](FakeGigeCamera& camera) { camera.bytes_beside = 64; });
   ASSERT_TRUE(started_) << bench_->message();
 
@@ -61,6 +62,7 @@ TEST_F(GigeSetup, AllThatIsWantedIsSet) {
   EXPECT_EQ(camera.packet, 1400);
   EXPECT_EQ(camera.trigger, "");
   EXPECT_TRUE(camera.plan.resend);
+  EXPECT_EQ(camera.plan.priority, 51);
   EXPECT_EQ(camera.plan.buffer_bytes, 64U * 48U + 64U);
   EXPECT_EQ(camera.plan.buffers, 12) << "250 ms at 50 a second";
   EXPECT_EQ(bench_->grabber().span(), std::chrono::milliseconds(20));
