@@ -87,9 +87,11 @@ std::size_t MissionLog::restarts_taken() const {
 }
 
 std::size_t MissionLog::polls_while_lost() const {
+  constexpr std::int32_t kWaiting = 1;
   constexpr std::int32_t kLost = 4;
   return static_cast<std::size_t>(std::count_if(
-      polls_.begin(), polls_.end(), [](const MissionPoll& poll) { return poll.state == kLost; }));
+      polls_.begin(), polls_.end(),
+      [](const MissionPoll& poll) { return poll.state == kLost || poll.state == kWaiting; }));
 }
 
 double MissionLog::exposed_us(std::int64_t number) const {
