@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "core/base/field.h"
+#include "core/base/words.h"
 
 namespace tubesight::core::lighting {
 
@@ -37,5 +38,22 @@ enum class LampCondition : std::uint8_t {
   kDark,     ///< it should shine, and the picture is dark
   kUnseen,   ///< the picture is bright and does not follow the lamp
 };
+
+[[nodiscard]] constexpr bool is_fault(LampCondition condition) {
+  return condition == LampCondition::kWeak || condition == LampCondition::kDark ||
+         condition == LampCondition::kUnseen;
+}
+
+/// The word of a condition, and a few for a person; empty: nothing to say.
+[[nodiscard]] constexpr Words words_of(LampCondition condition) {
+  switch (condition) {
+    case LampCondition::kUnknown: return {"unknown", ""};
+    case LampCondition::kWell: return {"well", "the picture follows it"};
+    case LampCondition::kWeak: return {"weak", "it does all it may, and tube-ends stay dim"};
+    case LampCondition::kDark: return {"dark", "it should shine, and the picture is dark"};
+    case LampCondition::kUnseen: return {"unseen", "the picture does not follow it"};
+  }
+  return {};
+}
 
 }  // namespace tubesight::core::lighting

@@ -1,6 +1,7 @@
 #include "core/lighting/lighting.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace tubesight::core::lighting {
 namespace {
@@ -11,6 +12,10 @@ constexpr std::int32_t kDark_q4 = 24 * 16;  // black levels and noise stay below
 constexpr FieldTime kDarkFor = std::chrono::seconds(1);
 /// Of a lamp that does all it may; the light is led up long before.
 constexpr std::int32_t kWeakContrast_q4 = kDimContrast_q4 * 2 / 3;
+/// A light that falls by 30 % in a fifth of a second; a tool at 300 mm/s makes a tenth of it.
+constexpr std::int32_t kBreakdown_q16 = 19'660;
+/// A lamp has followed its level by then.
+constexpr FieldTime kFollowed = std::chrono::seconds(2);
 constexpr FieldTime kWeakFor = std::chrono::milliseconds(1500);
 
 }  // namespace
@@ -24,6 +29,7 @@ void Lighting::take(const LampPolicy& policy) {
   watch_.begin();
   dark_ = {};
   weak_ = {};
+  breakdown_ = {};
 }
 
 void Lighting::look(const Look& look) {
@@ -36,7 +42,9 @@ void Lighting::look(const Look& look) {
   } else {
     list_window_light(field.pixels, look.window, lights_);
   }
-  watch_.follow(field, trail_.follow(field, lights_));
+  const std::optional<std::int32_t> change_q16 = trail_.follow(field, lights_);
+  watch_.follow(field, change_q16);
+  breakdown_.follow(field, change_q16);
   watch_lamp(field, look.knows_place);
   if (!look.knows_place) {
     lights_.clear();  // no tube-ends
@@ -53,6 +61,22 @@ void Lighting::Lasting::follow(bool so, FieldTime now, FieldTime enough) {
   long_enough = now - since >= enough;
 }
 
+void Lighting::Breakdown::follow(const Field& field, std::optional<std::int32_t> change_q16) {
+  const std::int32_t off = std::abs(field.lamp_permille - level_permille_);
+  if (off * 20 > level_permille_) {
+    level_permille_ = field.lamp_permille;
+    steady_since_ = field.mid_exposure;
+  }
+  // Each field's change is that since the last of its lines: half of it counts.
+  fall_q16_ = change_q16 ? fall_q16_ * 11 / 12 + std::clamp(*change_q16, -65'536, 65'536) / 2 : 0;
+  const FieldTime steady = field.mid_exposure - steady_since_;
+  if (steady >= kFollowed && fall_q16_ < -kBreakdown_q16) {
+    broken_ = true;
+  } else if (fall_q16_ > kBreakdown_q16) {
+    broken_ = false;
+  }
+}
+
 void Lighting::watch_lamp(const Field& field, bool knows_place) {
   if (knows_place && lights_.empty()) {
     return;  // passed over: nobody knows
@@ -61,6 +85,9 @@ void Lighting::watch_lamp(const Field& field, bool knows_place) {
   const bool should_shine = field.lamp_permille >= kBrightLevel_permille;
   dark_.follow(!knows_place && should_shine && light_q4 < kDark_q4, field.mid_exposure, kDarkFor);
   const bool does_all = field.lamp_permille * 20 >= policy_.most_permille * 19;
+  if (light_q4 >= kDimContrast_q4) {
+    breakdown_.clear();
+  }
   weak_.follow(knows_place && does_all && light_q4 < kWeakContrast_q4, field.mid_exposure,
                kWeakFor);
 }
@@ -83,7 +110,7 @@ LampCondition Lighting::condition() const {
   if (watch_.liveness() == Liveness::kFailed) {
     return LampCondition::kUnseen;
   }
-  if (weak_.long_enough) {
+  if (weak_.long_enough || breakdown_.broken()) {
     return LampCondition::kWeak;
   }
   return watch_.liveness() == Liveness::kProved ? LampCondition::kWell : LampCondition::kUnknown;

@@ -49,8 +49,8 @@ class Lighting {
   /// The members of the state; see core/base/state_stream.h. The list is written before it is read.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [policy, pattern, control, trail, watch, lights, dark, weak] = self;
-    stream(policy, pattern, control, trail, watch, dark, weak);
+    auto& [policy, pattern, control, trail, watch, lights, dark, weak, breakdown] = self;
+    stream(policy, pattern, control, trail, watch, dark, weak, breakdown);
   }
 
  private:
@@ -67,6 +67,28 @@ class Lighting {
     }
   };
 
+  /// Light that breaks down at once while the level stays.
+  class Breakdown {
+   public:
+    void follow(const Field& field, std::optional<std::int32_t> change_q16);
+    void clear() { broken_ = false; }
+    [[nodiscard]] bool broken() const { return broken_; }
+
+    template <typename Self, typename Stream>
+    static void transfer(Self& self, Stream& stream) {
+      auto& [fall, level, steady_since, is_broken] = self;
+      stream.number(fall, -(1 << 24), 1 << 24);
+      stream.number(level, 0, kFullLamp_permille);
+      stream(steady_since, is_broken);
+    }
+
+   private:
+    std::int32_t fall_q16_ = 0;  ///< of the last fifth of a second, about
+    std::int32_t level_permille_ = 0;
+    FieldTime steady_since_{0};  ///< the level is that one, but for its swing
+    bool broken_ = false;
+  };
+
   void watch_lamp(const Field& field, bool knows_place);
 
   LampPolicy policy_{};
@@ -77,6 +99,7 @@ class Lighting {
   TubeLightList lights_{};  ///< of this field
   Lasting dark_{};
   Lasting weak_{};
+  Breakdown breakdown_{};
 };
 
 }  // namespace tubesight::core::lighting

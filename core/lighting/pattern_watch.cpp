@@ -25,8 +25,15 @@ constexpr std::int64_t kLeastSquare_q16 = 33 * 33;
 
 /// While nothing was proved: what other light may leave to the lamp.
 constexpr std::int32_t kLeastGain_q10 = 123;  // 12 %
-constexpr std::int32_t kSureOfFirst_q4 = 5 * 16;
-constexpr std::int32_t kSure_q4 = 4 * 16;
+// Deviations that are certain, in 1/16. Each answer is as far from what the other would show as
+// false alarms are to be rare, and on its own side of the limit between them.
+constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;  // the lag is chosen among several
+constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;   // proved: a picture that knows nothing, g = 0
+constexpr std::int32_t kFromSound_q4 = 6 * 16;      // failed: a sound lamp, g as learnt
+constexpr std::int32_t kAboveLimit_q4 = 16;
+constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
+constexpr std::int32_t kBelowLimit_q4 = 5 * 16 / 2;
+constexpr std::int32_t kFirstBelowLimit_q4 = 4 * 16;
 constexpr std::int32_t kMostUndecided = 40;  // blocks: 10 s
 
 constexpr std::int64_t integer_root(std::int64_t value) {
@@ -207,28 +214,34 @@ std::int32_t PatternWatch::limit_q10() const {
 
 Liveness PatternWatch::judge(const Sums& sums) {
   const Liveness unlearnt = judge_unlearnt(sums);
-  if (learnt_lag_ < 0 || unlearnt == Liveness::kProved) {
+  if (learnt_lag_ < 0) {
     return unlearnt;
   }
   const Gain gain = gain_of(sums, static_cast<std::size_t>(learnt_lag_));
-  const std::int32_t above = gain.above_q4(limit_q10());
-  score_q4_ = above;
-  if (above >= kSure_q4) {
+  const std::int32_t limit = limit_q10();
+  const std::int32_t above = gain.above_q4(limit);
+  const std::int32_t from_sound = gain.above_q4(2 * limit);
+  score_q4_ = std::min(score_q4_, from_sound);
+  if (unlearnt == Liveness::kProved ||
+      (gain.above_q4(0) >= kFromNone_q4 && above >= kAboveLimit_q4)) {
     return Liveness::kProved;
   }
-  return above <= -kSure_q4 ? Liveness::kFailed : Liveness::kUnknown;
+  return from_sound <= -kFromSound_q4 && above <= -kBelowLimit_q4 ? Liveness::kFailed
+                                                                  : Liveness::kUnknown;
 }
 
 // With any of the lags, or with none of them.
 Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
-  std::int32_t best = -kSure_q4;
+  bool none = true;
   for (std::size_t lag = 0; lag < kLags; ++lag) {
-    best = std::max(best, gain_of(sums, lag).above_q4(kLeastGain_q10));
+    const Gain gain = gain_of(sums, lag);
+    const std::int32_t above = gain.above_q4(kLeastGain_q10);
+    if (gain.above_q4(0) >= kFirstFromNone_q4 && above >= kFirstAboveLimit_q4) {
+      return Liveness::kProved;
+    }
+    none = none && above <= -kFirstBelowLimit_q4;
   }
-  if (best >= kSureOfFirst_q4) {
-    return Liveness::kProved;
-  }
-  return best <= -kSure_q4 ? Liveness::kFailed : Liveness::kUnknown;
+  return none ? Liveness::kFailed : Liveness::kUnknown;
 }
 
 void PatternWatch::learn(const Sums& sums) {
@@ -241,7 +254,7 @@ void PatternWatch::learn(const Sums& sums) {
       gain = other;
     }
   }
-  if (best < 0 || gain.above_q4(kLeastGain_q10) < kSureOfFirst_q4) {
+  if (best < 0 || gain.above_q4(0) < kFirstFromNone_q4) {
     return;
   }
   const std::int32_t seen = std::min(gain.q10, 1024);

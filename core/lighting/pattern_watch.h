@@ -21,7 +21,7 @@ inline constexpr std::size_t kLags = kLags_us.size();
 /// led through a lag: that leaves of the light of a tool that moves smoothly next to nothing, and
 /// of the pattern most. The gain g = sum(uv) / sum(vv) is 1 where all light is the lamp's and 0 in
 /// a picture that knows nothing of it; what u and g v differ by says how well g is known. It is
-/// looked at over the last 1.5 s, which do at rest, and over 9 s, four times a second.
+/// looked at over the last 1.75 s, which do at rest, over 3.5 s and over 9 s, four times a second.
 ///
 /// Levels count as they were in force, not as they were wanted: no pattern need be known, and what
 /// a recording holds is enough to come to the same answer.
@@ -36,8 +36,8 @@ class PatternWatch {
   /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
   [[nodiscard]] Liveness liveness() const { return liveness_; }
 
-  /// How far the gain is from the limit between following and not, in its standard deviations; for
-  /// tests and the study of false alarms. 0: not known.
+  /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
+  /// deviations, 1/16; 0: it was not. For the study of false alarms.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
 
   /// The members of the state; see core/base/state_stream.h.
@@ -102,7 +102,7 @@ class PatternWatch {
   };
 
   static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
-  static constexpr std::int32_t kShortBlocks = 6;  ///< of a quarter of a second
+  static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
   static constexpr std::int32_t kMiddleBlocks = 14;
   static constexpr std::int32_t kBlocks = 36;
 
