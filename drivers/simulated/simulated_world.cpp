@@ -70,8 +70,7 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
   gap_ = false;
   events_taken_ = 0;
   started_ = false;
-  held_ = {};
-  other_swing_ = 0.0;
+  another_picture_.begin();
   lamp_permille_ = scenario.light.lamp_permille;
   shine_ = lamp_permille_ / 1000.0;
   return {};
@@ -322,40 +321,9 @@ void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {
   exposure.parity = out.field.parity;
   exposure.noise_seed = derived_seed(scenario_->seed, static_cast<std::uint64_t>(out.slot));
   exposure.window = window_;
-  show_another_picture(out, exposure);
+  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, following_share(),
+                        scenario_->seed, exposure);
   draw(exposure, out.faults);
-}
-
-/// What a frozen store shows, and another toolhead that rests when the fault begins: there a box
-/// swings its lamp by a percent as this one does, by dice of its own.
-void SimulatedWorld::show_another_picture(const SimulatedField& out,
-                                          core::rendering::Exposure& exposure) {
-  std::optional<core::rendering::Exposure>& held =
-      held_[static_cast<std::size_t>(out.field.parity)];
-  if (!out.faults.frozen && !out.faults.other_camera) {
-    held.reset();
-    return;
-  }
-  if (!held) {
-    held = exposure;
-    const auto step_mm = core::tubesheet::move_mm(
-        scenario_->scene.sheet, {out.faults.elsewhere[0], out.faults.elsewhere[1]});
-    const core::Transform<core::frames::Sheet, core::frames::Sheet> elsewhere(
-        Eigen::Matrix3d::Identity(), Eigen::Vector3d(step_mm[0], step_mm[1], 0.0));
-    held->opened = elsewhere * held->opened;
-    held->closed = elsewhere * held->closed;
-  }
-  const std::uint64_t noise_seed = exposure.noise_seed;
-  exposure = *held;
-  exposure.noise_seed = noise_seed;
-  if (out.faults.other_camera) {
-    constexpr std::int64_t kChip_ns = 50'000'000;
-    const std::int64_t chip = (out.field.mid_exposure.count() + kChip_ns / 3) / kChip_ns;
-    Dice dice(derived_seed(scenario_->seed ^ 0x07E2'CA4EU, static_cast<std::uint64_t>(chip)));
-    const double swing = dice.share() < 0.5 ? -0.01 : 0.01;
-    other_swing_ += (swing - other_swing_) * following_share();
-    exposure.lamp *= 1.0 + other_swing_;
-  }
 }
 
 void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const FieldFaults& faults) {

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/base/event.h"
@@ -15,6 +14,7 @@
 #include "core/base/transform.h"
 #include "core/rendering/renderer.h"
 #include "core/rendering/truth.h"
+#include "drivers/simulated/another_picture.h"
 #include "drivers/simulated/fault_schedule.h"
 #include "drivers/simulated/pixel_faults.h"
 #include "drivers/simulated/scenario.h"
@@ -126,7 +126,6 @@ class SimulatedWorld {
   };
   FieldTruth look(std::int64_t slot, const FieldFaults& faults, Shutter& shutter);
   void expose(const Shutter& shutter, const SimulatedField& out);
-  void show_another_picture(const SimulatedField& out, core::rendering::Exposure& exposure);
   void draw(const core::rendering::Exposure& exposure, const FieldFaults& faults);
   void follow_slip(SimulatedField& out);
   void warm_lamp();
@@ -152,10 +151,8 @@ class SimulatedWorld {
   std::size_t events_taken_ = 0;
   bool started_ = false;  ///< the clicks were handed over
   std::int32_t lamp_permille_ = 1000;
-  /// The picture that stands still, by parity, while one does.
-  std::array<std::optional<core::rendering::Exposure>, 3> held_{};
-  double other_swing_ = 0.0;  ///< of another toolhead's lamp
-  double shine_ = 1.0;        ///< the lamp's light, 0..1, which follows the level with its lag
+  AnotherPicture another_picture_;
+  double shine_ = 1.0;  ///< the lamp's light, 0..1, which follows the level with its lag
 };
 
 }  // namespace tubesight::drivers
