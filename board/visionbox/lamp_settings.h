@@ -20,10 +20,18 @@ struct LampSettings {
   drivers::GpioSettings gpio;
   LampCare care;
   SilentLinkSettings silent_link;
+  bool automatic = false;  ///< the level follows the picture until somebody commands one
+  bool pattern = false;    ///< the level swings, and the picture must follow
 };
 
-/// Reads the table; mistakes go to the reader's problems. `camera`: the source is one; anything
-/// else has a light of its own.
-void read_lamp(drivers::TableReader& table, bool camera, LampSettings& lamp);
+/// What the light of a source is.
+enum class SourceLight : std::uint8_t {
+  kRecorded,   ///< it was; nobody dims it
+  kSimulated,  ///< the simulated lamp, which the box dims
+  kCamera,     ///< that of the lamp in `[lamp]`, where there is one
+};
+
+/// Reads the table; mistakes go to the reader's problems.
+void read_lamp(drivers::TableReader& table, SourceLight light, LampSettings& lamp);
 
 }  // namespace tubesight::board
