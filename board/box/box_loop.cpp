@@ -40,6 +40,7 @@ Result<void> BoxLoop<S, Margin>::start() {
     if (ports_.dimmer != nullptr) {
       TUBESIGHT_TRY(ports_.dimmer->start());
       TUBESIGHT_TRY(ports_.dimmer->set_level(hal::kFullLevel_permille));
+      session_->take_lamp(services_.lamp);
     }
     if (ports_.link != nullptr) {
       TUBESIGHT_TRY(ports_.link->start());
@@ -249,8 +250,8 @@ void BoxLoop<S, Margin>::set_lamp() {
     return;
   }
   const std::int32_t wanted = output_.lamp_permille;
-  if (wanted != input_.field.lamp_permille && wanted != ports_.dimmer->level_permille() &&
-      !ports_.dimmer->set_level(wanted)) {
+  const bool meant = output_.lamp_ruled || wanted != input_.field.lamp_permille;
+  if (meant && wanted != ports_.dimmer->level_permille() && !ports_.dimmer->set_level(wanted)) {
     ++counters_.dimmer_errors;
   }
 }

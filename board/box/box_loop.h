@@ -14,6 +14,7 @@
 #include "core/base/result.h"
 #include "core/base/scalar.h"
 #include "core/base/snapshot.h"
+#include "core/lighting/lamp_policy.h"
 #include "core/session/session.h"
 #include "core/tracking/margin_policy.h"
 #include "hal/clock.h"
@@ -42,6 +43,7 @@ struct BoxServices {
   core::Snapshot<OverlaySnapshot>* overlay = nullptr;  ///< what the marks are drawn from
   bool estimates = false;             ///< with the places where tubes are expected in it
   EventRecorder* recorder = nullptr;  ///< keeps the last fields for a replay
+  core::lighting::LampPolicy lamp{};  ///< what the session may do with the dimmer's lamp
 };
 
 /// What went wrong on one line so far.

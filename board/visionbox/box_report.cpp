@@ -67,6 +67,7 @@ void add_sighting(JsonLine& line, const core::Sighting& sighting) {
   line.open("tracking").add("state", core::name_of(sighting.state));
   line.add("reason", core::name_of(sighting.reason)).add("field", sighting.field);
   line.add_printed("age_ms", decimal(sighting.age.count(), 1'000'000, 1));
+  line.add("liveness", core::name_of(sighting.liveness));
   line.add("judged_fields", sighting.judged_fields).add("tubes_seen", sighting.tracked);
   if (sighting.primary_known) {
     line.add("primary", tube_text(sighting.primary));
@@ -191,6 +192,16 @@ std::string sighting_text(const core::Sighting& sighting) {
   return text;
 }
 
+/// What the picture shows of the lamp; empty where the box does not rule it.
+std::string picture_text(const TrackingStatus& tracking) {
+  if (!tracking.lamp_ruled) {
+    return {};
+  }
+  const core::Words words = core::lighting::words_of(tracking.lamp_condition);
+  return "; " + (words.meaning.empty() ? "nothing shows yet that the picture follows it"
+                                       : std::string(words.meaning));
+}
+
 std::string latency_text(const LatencyHistogram& histogram) {
   return "median " + std::to_string(histogram.quantile_us(0.5)) + " us, worst " +
          std::to_string(histogram.worst_us()) + " us";
@@ -218,6 +229,7 @@ std::string status_text(const BoxReport& report) {
   text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
                                           : std::string("nobody dims it"));
   text += report.lamp && !report.lamp->open ? ", its device cannot be had" : "";
+  text += picture_text(tracking);
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
@@ -258,6 +270,8 @@ std::string status_answer(const BoxReport& report) {
     add_latency(line, "grab_to_sighting", tracking.grab_to_sighting);
     line.add("late", tracking.late);
     line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille);
+    line.add("ruled", tracking.lamp_ruled);
+    line.add("condition", core::lighting::words_of(tracking.lamp_condition).word);
     if (report.lamp) {
       line.add("open", report.lamp->open).add("resting", report.lamp->resting);
       line.add("failures", report.lamp->failures);
@@ -295,10 +309,12 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                       " fields later than " + rate_text(report.deadline_ms) + " ms"});
   rows.push_back({"lamp",
                   tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0 &&
-                                          (!report.lamp || report.lamp->open))
+                                          (!report.lamp || report.lamp->open) &&
+                                          !core::lighting::is_fault(tracking.lamp_condition))
                                 : Verdict::kAbsent,
                   tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille, " +
-                                      std::to_string(tracking.counters.dimmer_errors) + " errors"
+                                      std::to_string(tracking.counters.dimmer_errors) + " errors" +
+                                      picture_text(tracking)
                                 : "nobody dims it"});
   rows.push_back({"link", there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
                   link_text(report)});

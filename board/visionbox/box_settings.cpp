@@ -39,6 +39,13 @@ constexpr std::size_t kLongestSocketPath = 107;
 
 constexpr drivers::NeededTables kBoxNeeds{true, true, true, false};
 
+constexpr SourceLight light_of(SourceKind kind) {
+  if (is_camera(kind)) {
+    return SourceLight::kCamera;
+  }
+  return kind == SourceKind::kSimulated ? SourceLight::kSimulated : SourceLight::kRecorded;
+}
+
 /// A file that one kind of source plays, and the other doesn't have.
 void read_file(const SettingsDocument& document, TableReader& table, std::string_view key,
                bool wanted, std::string& path) {
@@ -160,7 +167,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    read_lamp(table, {is_camera(box.source.kind), box.link.kind != LinkKind::kNone}, box.lamp);
+    read_lamp(table, {light_of(box.source.kind), box.link.kind != LinkKind::kNone}, box.lamp);
   });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);

@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 7> kSharedKeys = {
     "chip",          "frequency_hz",   "soft_ms",        "full_for_s",
     "rest_permille", "silent_after_s", "silent_permille"};
 
+constexpr std::array<std::string_view, 2> kRuleKeys = {"automatic", "pattern"};
+
 constexpr drivers::WholeRange kChannel{0, 255};
 constexpr drivers::WholeRange kPwmFrequency{100, 100'000};
 /// A thread is to be woken twice in each period.
@@ -93,11 +95,19 @@ void read_gpio(TableReader& table, drivers::GpioSettings& gpio) {
   refuse_keys(table, kPwmKeys, "of another kind of lamp");
 }
 
+void read_rules(TableReader& table, bool usual, LampSettings& lamp) {
+  lamp.automatic = usual;
+  lamp.pattern = usual;
+  table.optional_switch("automatic", lamp.automatic);
+  table.optional_switch("pattern", lamp.pattern);
+}
+
 }  // namespace
 
 void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lamp) {
   std::size_t kind = 0;
-  if (!table.word("kind", kKinds, kind) || (kind != 0 && !company.camera)) {
+  const bool camera = company.light == SourceLight::kCamera;
+  if (!table.word("kind", kKinds, kind) || (kind != 0 && !camera)) {
     if (table.sound("kind")) {
       table.complain("kind", std::string(kKinds[kind]) +
                                  ", expected \"none\": a source that is played has its own light");
@@ -105,6 +115,7 @@ void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lam
     ignore_keys(table, kPwmKeys);
     ignore_keys(table, kGpioKeys);
     ignore_keys(table, kSharedKeys);
+    ignore_keys(table, kRuleKeys);
     return;
   }
   lamp.kind = static_cast<LampKind>(kind);
@@ -112,12 +123,25 @@ void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lam
     refuse_keys(table, kPwmKeys, "of another kind of lamp");
     refuse_keys(table, kGpioKeys, "of another kind of lamp");
     refuse_keys(table, kSharedKeys, "of another kind of lamp");
+    if (company.light == SourceLight::kSimulated) {
+      read_rules(table, false, lamp);
+    } else {
+      refuse_keys(table, kRuleKeys, "of a lamp that the box dims");
+    }
     return;
   }
   if (lamp.kind == LampKind::kPwm) {
     read_pwm(table, lamp.pwm);
   } else {
     read_gpio(table, lamp.gpio);
+  }
+  // Steps do not swing by a hundredth; pulses of a thread may beat with the exposure.
+  const bool stepped = lamp.kind == LampKind::kGpio && lamp.gpio.bank.lines.size() > 1;
+  if (stepped) {
+    refuse_keys(table, std::array<std::string_view, 1>{"pattern"}, "of a lamp without steps");
+    table.optional_switch("automatic", lamp.automatic);
+  } else {
+    read_rules(table, lamp.kind == LampKind::kPwm, lamp);
   }
   read_care(table, lamp.care);
   read_silent_link(table, company.link, lamp.silent_link);

@@ -20,12 +20,21 @@ struct LampSettings {
   drivers::GpioSettings gpio;
   LampCare care;
   SilentLinkSettings silent_link;
+  bool automatic = false;  ///< the level follows the picture until somebody commands one
+  bool pattern = false;    ///< the level swings, and the picture must follow
+};
+
+/// What the light of a source is.
+enum class SourceLight : std::uint8_t {
+  kRecorded,   ///< it was; nobody dims it
+  kSimulated,  ///< the simulated lamp, which the box dims
+  kCamera,     ///< that of the lamp in `[lamp]`, where there is one
 };
 
 /// What else a box has that its lamp is asked about.
 struct LampCompany {
-  bool camera = false;  ///< the source is one; anything else has a light of its own
-  bool link = false;    ///< there is a robot that may fall silent
+  SourceLight light = SourceLight::kRecorded;
+  bool link = false;  ///< there is a robot that may fall silent
 };
 
 /// Reads the table; mistakes go to the reader's problems.

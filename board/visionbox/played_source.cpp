@@ -245,6 +245,7 @@ Result<hal::FieldLease> PlayedSource::grab_for(milliseconds timeout) {
 }
 
 void PlayedSource::hand_over(const Slot& slot) {
+  shone_permille_ = slot.field.lamp_permille;
   if (said_taken_ == said_.size()) {
     said_.clear();
     said_taken_ = 0;

@@ -20,6 +20,7 @@
 #include "core/base/static_vector.h"
 #include "hal/dimmer.h"
 #include "hal/frame_grabber.h"
+#include "hal/lamp_history.h"
 
 namespace tubesight::board {
 
@@ -82,6 +83,8 @@ class PlayedSource final : public FieldSource {
 
   /// The lamp level that the next field is made with. Any thread.
   void set_lamp_permille(std::int32_t permille) { lamp_permille_ = permille; }
+  /// The lamp level that the field handed over last was made with. Any thread.
+  [[nodiscard]] std::int32_t shone_permille() const { return shone_permille_; }
 
  private:
   static constexpr std::uint32_t kSlots = 8;
@@ -128,6 +131,7 @@ class PlayedSource final : public FieldSource {
   std::atomic<std::int64_t> failures_{0};
   std::atomic<std::int64_t> made_late_{0};
   std::atomic<std::int32_t> lamp_permille_{core::kFullLamp_permille};
+  std::atomic<std::int32_t> shone_permille_{core::kFullLamp_permille};
   // Of the source's thread.
   std::optional<std::uint32_t> spare_;  ///< a slot for which there was no field
   core::FieldTime last_time_{0};
@@ -144,8 +148,9 @@ class PlayedSource final : public FieldSource {
   std::int64_t unsaid_ = 0;
 };
 
-/// The lamp of a played world: the next field that is made is exposed in its light.
-class PlayedDimmer final : public hal::Dimmer {
+/// The lamp of a played world: the next field that is made is exposed in its light. Some are made
+/// already when a level is set; which level a field was made with comes with it.
+class PlayedDimmer final : public hal::Dimmer, public hal::LampHistory {
  public:
   /// `source` outlives the dimmer.
   explicit PlayedDimmer(PlayedSource& source) : source_(&source) {}
@@ -154,6 +159,11 @@ class PlayedDimmer final : public hal::Dimmer {
   void stop() override;
   [[nodiscard]] core::Result<void> set_level(std::int32_t permille) override;
   [[nodiscard]] std::int32_t level_permille() const override { return level_permille_; }
+
+  /// Of the field handed over last, whose instant it is.
+  [[nodiscard]] std::int32_t level_permille_at(core::FieldTime /*instant*/) const override {
+    return source_->shone_permille();
+  }
 
  private:
   PlayedSource* source_;

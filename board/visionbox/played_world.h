@@ -24,6 +24,9 @@ class PlayedWorld final : public WatchedWorld {
   [[nodiscard]] hal::RobotLink* scripted_robot() override { return &robot_; }
   [[nodiscard]] hal::OperatorStation& station() override { return station_; }
   [[nodiscard]] std::optional<CameraStatus> camera() const override { return {}; }
+  [[nodiscard]] const hal::LampHistory* lamp_history() const override {
+    return player_->has_lamp() ? &lamp_ : nullptr;
+  }
   [[nodiscard]] LampKeeper* lamp() override { return nullptr; }
   [[nodiscard]] const LampKeeper* lamp() const override { return nullptr; }
 

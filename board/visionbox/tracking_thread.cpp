@@ -83,6 +83,8 @@ void TrackingThread::publish() {
   now_.counters = loop_->counters();
   now_.lamp = loop_->input().lamp_dimmed;
   now_.lamp_permille = loop_->input().field.lamp_permille;
+  now_.lamp_ruled = loop_->output().lamp_ruled;
+  now_.lamp_condition = loop_->output().lamp;
   latest_.publish(now_);
   tell_robot();
 }
@@ -100,7 +102,8 @@ void TrackingThread::tell_robot() {
   health.lamp_dimmed = now_.lamp;
   if (now_.lamp) {
     const bool failed = now_.counters.dimmer_errors > dimmer_errors_ ||
-                        (told_.lamp != nullptr && !told_.lamp->report().open);
+                        (told_.lamp != nullptr && !told_.lamp->report().open) ||
+                        core::lighting::is_fault(now_.lamp_condition);
     health.lamp = failed ? Health::kFailed : Health::kWell;
     health.lamp_permille = now_.lamp_permille;
   }

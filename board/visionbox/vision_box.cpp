@@ -1,5 +1,7 @@
 #include "board/visionbox/vision_box.h"
 
+#include <random>
+
 #include "board/visionbox/camera_world.h"
 #include "board/visionbox/link_identity.h"
 #include "board/visionbox/played_world.h"
@@ -47,6 +49,16 @@ std::unique_ptr<EventRecorder> make_recorder(const BoxSettings& settings) {
   return recorder;
 }
 
+/// Another pattern at each start: what another box has recorded, or this one before, is not taken
+/// for a live picture.
+core::lighting::LampPolicy lamp_policy(const LampSettings& lamp) {
+  core::lighting::LampPolicy policy;
+  policy.follows_picture = lamp.automatic;
+  policy.pattern = lamp.pattern;
+  policy.seed = std::random_device()();
+  return policy;
+}
+
 std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxSettings& settings,
                                              const VisionBox::Tell& tell) {
   if (recorder == nullptr) {
@@ -67,7 +79,9 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, tell_)),
-      loop_(session_, ports(), {&pose_handover_, nullptr, nullptr, false, recorder_.get()}),
+      loop_(
+          session_, ports(),
+          {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp)}),
       tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
 
 /// A robot that is there takes the scripted one's place.
@@ -76,7 +90,8 @@ BoxPorts VisionBox::ports() {
   if (link == nullptr) {
     link = world_->scripted_robot();
   }
-  return {&source_, &source_.clock(), world_->dimmer(), link, &world_->station(), world_->lamp()};
+  return {&source_, &source_.clock(),   world_->dimmer(),
+          link,     &world_->station(), world_->lamp_history()};
 }
 
 Result<void> VisionBox::start_without_tracking() {

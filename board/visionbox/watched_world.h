@@ -6,6 +6,7 @@
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/lamp_keeper.h"
 #include "hal/dimmer.h"
+#include "hal/lamp_history.h"
 #include "hal/operator_station.h"
 #include "hal/robot_link.h"
 
@@ -27,7 +28,9 @@ class WatchedWorld {
   [[nodiscard]] virtual hal::OperatorStation& station() = 0;
   /// How the camera is doing; empty: there is none. Any thread.
   [[nodiscard]] virtual std::optional<CameraStatus> camera() const = 0;
-  /// Who keeps the lamp; null: its level is in force at once.
+  /// Which level shone when; null: nobody dims the lamp.
+  [[nodiscard]] virtual const hal::LampHistory* lamp_history() const = 0;
+  /// Who keeps a real lamp; null: there is none.
   [[nodiscard]] virtual LampKeeper* lamp() = 0;
   [[nodiscard]] virtual const LampKeeper* lamp() const = 0;
 };

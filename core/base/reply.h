@@ -27,6 +27,7 @@ enum class StartRefusal : std::uint8_t {
   kSuperseded,     ///< another start came before the same field, and that one counts
   kMap,            ///< plugs or places without a tube look like open tube-ends
   kElsewhere,      ///< the tool was just seen too far from there; a confirmed start is taken
+  kNotLive,        ///< the picture does not follow the lamp: it is not live, or the lamp is dead
 };
 
 /// What the box says to a claim.

@@ -38,6 +38,7 @@ enum class Reason : std::uint8_t {
   kArithmetic,    ///< lost: a number left the range of the fixed-point format
   kNoField,       ///< coasting: no field came in time
   kMap,           ///< lost: plugs or places without a tube look like open tube-ends
+  kNotLive,       ///< lost: the picture does not follow the lamp
 };
 
 /// Whether the picture is known to be live; the column `liveness`.
@@ -101,6 +102,7 @@ struct TubeSighting {
   ImagePoint center_px;                ///< image of the tube-end's centre
   std::int32_t quality_permyriad = 0;  ///< 0..10000; 0: measured but rejected from the fit
   bool plug = false;                   ///< recognised as a plug
+  std::int32_t contrast_q4 = 0;        ///< from its dark inside to its bright rim, 1/16 grey level
 };
 
 /// Tube-ends that a field can yield: a 640 by 480 picture of the smallest pitch (17 mm at 200 mm

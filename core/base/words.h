@@ -52,6 +52,7 @@ struct Words {
     case Reason::kNoField: return {"no-field", "no field came in time", "no field came"};
     case Reason::kMap:
       return {"map", "sites that should be closed are open tube-ends", "map refuted"};
+    case Reason::kNotLive: return {"not-live", "the picture does not follow the lamp", "not live"};
   }
   return {};
 }
@@ -79,6 +80,7 @@ struct Words {
     case StartRefusal::kMap: return {"map", "sites that should be closed are open tube-ends"};
     case StartRefusal::kElsewhere:
       return {"elsewhere", "the tool was just seen too far from there to have come, confirm it"};
+    case StartRefusal::kNotLive: return {"not-live", "the picture does not follow the lamp"};
   }
   return {};
 }

@@ -22,6 +22,7 @@ void Session<S, Margin>::step(const Input& input, Output& output) {
   starts_.look(input.field, knows_place(state_));
   const bool started = take_starts(input.field, input.events);
   tracker_.step(input.field, output.sighting, output.tubes);
+  follow_lamp(input, output);
   if (started && tracker_.start_refusal() != StartRefusal::kElsewhere) {
     recent_.clear();  // a track that needed a new start does not vouch for the time before it
   }
@@ -30,6 +31,9 @@ void Session<S, Margin>::step(const Input& input, Output& output) {
   std::int32_t start = 0;
   for (const Event& event : input.events) {
     answer(event, input, start, output);
+  }
+  if (output.lamp_ruled) {
+    output.lamp_permille = lighting_.wanted_permille(lamp_wanted_, input.field.mid_exposure);
   }
 }
 
@@ -52,12 +56,33 @@ bool Session<S, Margin>::take_starts(const Field& field, const EventList& events
   }
   // Without a picture nothing can be taken, and a track that is well goes on.
   const bool picture = field.status == FieldStatus::kGood;
-  const StartRefusal refusal = picture ? starts_.judge(*last) : StartRefusal::kPicture;
+  StartRefusal refusal = picture ? starts_.judge(*last) : StartRefusal::kPicture;
+  if (refusal == StartRefusal::kNone && lighting_.liveness() == Liveness::kFailed) {
+    refusal =
+        StartRefusal::kNotLive;  // what is clicked on may be gone when pictures are live again
+  }
   static_cast<void>(start_refusals_.try_push_back(refusal));
   if (refusal == StartRefusal::kNone) {
     tracker_.request_start(tracking::make_start_clicks(last->tubes), last->confirmed);
   }
   return refusal == StartRefusal::kNone;
+}
+
+// A picture that does not follow the lamp may be an old one, or another camera's: the tool may be
+// anywhere, and on a bare lattice no picture would show it when it is live again. So the track is
+// lost, and none begins until the pattern is seen.
+template <Scalar S, typename Margin>
+void Session<S, Margin>::follow_lamp(const Input& input, Output& output) {
+  output.lamp_ruled = lighting_.rules();
+  if (!output.lamp_ruled) {
+    return;
+  }
+  lighting_.look({&input.field, output.tubes, model_.window, knows_place(output.sighting.state)});
+  if (lighting_.liveness() == Liveness::kFailed && knows_place(output.sighting.state)) {
+    tracker_.give_up(Reason::kNotLive, input.field, output.sighting, output.tubes);
+  }
+  output.sighting.liveness = lighting_.liveness();
+  output.lamp = lighting_.condition();
 }
 
 // The count of judged fields and the age are the session's, whatever happens to the track.
@@ -69,7 +94,8 @@ void Session<S, Margin>::remember(Sighting& sighting) {
     last_judged_ = sighting.time;
   }
   if (sighting.state == TrackState::kLost &&
-      (sighting.reason == Reason::kMap || sighting.reason == Reason::kFieldOrder)) {
+      (sighting.reason == Reason::kMap || sighting.reason == Reason::kFieldOrder ||
+       sighting.reason == Reason::kNotLive)) {
     recent_.clear();  // the last fields' addresses are refuted, too
   }
   sighting.judged_fields = judged_fields_;
@@ -103,7 +129,7 @@ void Session<S, Margin>::answer(const Event& event, const Input& input, std::int
                  },
                  [&](const PoseResult& pose) { reply(poses_.judge(pose, output.sighting)); },
                  [&](const LampCommand& command) {
-                   if (!input.lamp_dimmed) {
+                   if (!input.lamp_dimmed && !output.lamp_ruled) {
                      reply(NotServedReply{});
                      return;
                    }

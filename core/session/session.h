@@ -12,6 +12,8 @@
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "core/base/sighting.h"
+#include "core/lighting/lamp_policy.h"
+#include "core/lighting/lighting.h"
 #include "core/tracking/margin_policy.h"
 #include "core/tracking/tracker.h"
 #include "core/verification/claim_judge.h"
@@ -34,6 +36,8 @@ struct Output {
   tracking::TubeSightingList tubes;                 ///< measured tube-ends and recognised plugs
   ReplyList replies;                                ///< in the order of their making
   std::int32_t lamp_permille = kFullLamp_permille;  ///< level wanted
+  bool lamp_ruled = false;  ///< the session means that level: somebody took the lamp for it
+  lighting::LampCondition lamp = lighting::LampCondition::kUnknown;  ///< as the picture shows it
   PoseOrder order;  ///< a pose to compute, from this field's picture on
 };
 
@@ -52,6 +56,11 @@ class Session {
   /// Takes the settings over. kOutOfRange, kIllConditioned, kInvalidArgument as
   /// make_tracking_model() and SheetMap::assign(). Call once, before step().
   [[nodiscard]] Result<void> configure(const SessionSettings& settings);
+
+  /// Lets the session rule the lamp by this policy, and look for its light in the picture, from the
+  /// beginning. Call after configure(), before the first step; without it the level is the robot's
+  /// alone and no liveness is known.
+  void take_lamp(const lighting::LampPolicy& policy) { lighting_.take(policy); }
 
   /// Processes one field with the events before it. Start events take effect in this field.
   ///
@@ -87,6 +96,9 @@ class Session {
   /// kOutOfRange it holds what no session can have come to.
   [[nodiscard]] Result<void> restore(std::span<const std::byte> from);
 
+  /// The lamp's closed loop.
+  [[nodiscard]] const lighting::Lighting& lighting() const { return lighting_; }
+
   /// The tracker, for estimates and places of tubes in the last field's picture.
   [[nodiscard]] const tracking::Tracker<S, Margin>& tracker() const { return tracker_; }
 
@@ -99,6 +111,7 @@ class Session {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream);
   [[nodiscard]] bool take_starts(const Field& field, const EventList& events);
+  void follow_lamp(const Input& input, Output& output);
   void remember(Sighting& sighting);
   void answer(const Event& event, const Input& input, std::int32_t& start, Output& output);
 
@@ -109,6 +122,7 @@ class Session {
   std::int64_t judged_fields_ = 0;
   FieldTime last_judged_{0};
   std::optional<std::int32_t> lamp_wanted_;  ///< what was commanded last
+  lighting::Lighting lighting_;
 
   verification::RecentFields<S> recent_;
   verification::ClaimJudge<S> claims_;
@@ -122,7 +136,7 @@ template <Scalar S, typename Margin>
 constexpr std::size_t Session<S, Margin>::state_bytes() {
   // A value takes no more bytes there than here; 256 for head, check sum and what stands alone.
   return sizeof(tracker_) + sizeof(recent_) + sizeof(claims_) + sizeof(starts_) + sizeof(poses_) +
-         256;
+         sizeof(lighting_) + 256;
 }
 
 }  // namespace tubesight::core::session

@@ -20,7 +20,7 @@ namespace tubesight::core::session {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x6574617473627574;  // "tubstate"
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kCheckBytes = 8;
 
 /// What stands before the body.
@@ -62,12 +62,12 @@ template <Scalar S, typename Margin>
 template <typename Self, typename Stream>
 void Session<S, Margin>::transfer(Self& self, Stream& stream) {
   // Model, map and digest are the settings'; the refusals are written and read within a step.
-  auto& [model, map, tracker, state, judged_fields, last_judged, lamp_wanted, recent, claims,
-         starts, poses, start_refusals, settings] = self;
+  auto& [model, map, tracker, state, judged_fields, last_judged, lamp_wanted, lighting, recent,
+         claims, starts, poses, start_refusals, settings] = self;
   stream(tracker);
   stream.choice(state, TrackState::kLost);
   stream.number(judged_fields, 0, kMostCounted);
-  stream(last_judged, lamp_wanted, recent, claims, starts, poses);
+  stream(last_judged, lamp_wanted, lighting, recent, claims, starts, poses);
 }
 
 template <Scalar S, typename Margin>

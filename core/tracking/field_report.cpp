@@ -53,6 +53,7 @@ void report_tubes(const FieldRecord<S>& record, const PrimaryTube& primary, Sigh
     const std::int32_t share = tube.edges * 10000 / kRimPoints;
     const std::int32_t spread = std::min(to_scaled(tube.rms_px, 10), 1000);
     seen.quality_permyriad = tube.used ? std::max(share - share * spread / 1024, 1) : 0;
+    seen.contrast_q4 = tube.contrast_q4;
     sighting.tracked += tube.used ? 1 : 0;
     static_cast<void>(tubes.try_push_back(seen));
     if (primary.is(tube.address)) {

@@ -52,6 +52,13 @@ class Tracker {
   /// Processes one field. Costs some 19,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
 
+  /// Ends the track after a step for a reason that the picture alone does not show, and tells of
+  /// the field anew.
+  void give_up(Reason reason, const Field& field, Sighting& sighting, TubeSightingList& tubes) {
+    lose(reason);
+    report(field, sighting, tubes);
+  }
+
   /// Why the last start was refused.
   [[nodiscard]] StartRefusal start_refusal() const { return start_refusal_; }
 
@@ -73,9 +80,9 @@ class Tracker {
            clock, gate, doubts, old_pictures, order, observer, last_place, map_watch, confirmed] =
         self;
     stream.choice(state, TrackState::kLost);
-    stream.choice(reason, Reason::kMap);
+    stream.choice(reason, Reason::kNotLive);
     stream(clicks);
-    stream.choice(start_refusal, StartRefusal::kElsewhere);
+    stream.choice(start_refusal, StartRefusal::kNotLive);
     stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order, observer,
            last_place, map_watch, confirmed);
   }

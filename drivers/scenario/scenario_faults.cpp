@@ -60,7 +60,8 @@ void for_each_parameter(FaultKind kind, Visit visit) {
       visit(Three{"amplitude_deg", {0.0, 5.0, " degrees"}, &Fault::shake_deg});
       visit(Number{"frequency_hz", {0.1, 500.0, " Hz"}, &Fault::frequency_hz});
       break;
-    case FaultKind::kJump: visit(kStepsKey); break;
+    case FaultKind::kJump:
+    case FaultKind::kOtherCamera: visit(kStepsKey); break;
     case FaultKind::kEmi:
       visit(Number{"share", kShare, &Fault::share});
       visit(Number{"amplitude", kGrey, &Fault::amplitude});
@@ -68,7 +69,8 @@ void for_each_parameter(FaultKind kind, Visit visit) {
     case FaultKind::kSwapped:
     case FaultKind::kDropped:
     case FaultKind::kRepeated:
-    case FaultKind::kSaturated: break;
+    case FaultKind::kSaturated:
+    case FaultKind::kFrozen: break;
   }
 }
 
@@ -125,7 +127,8 @@ Fault usual(FaultKind kind) {
       fault.angle_deg = 0.3;
       break;
     case FaultKind::kVibration: fault.shake_mm = {0.2, 0.2, 0.0}; break;
-    case FaultKind::kJump: fault.columns = 1; break;
+    case FaultKind::kJump:
+    case FaultKind::kOtherCamera: fault.columns = 1; break;
     case FaultKind::kEmi:
       fault.share = 0.05;
       fault.amplitude = 60.0;
@@ -146,7 +149,8 @@ void check_parameters(TableReader& table, const FaultContext& context, const Fau
     table.complain(kKindKey, "swapped, but the camera is progressive, expected another kind");
   }
   const TubeAddress by{fault.rows, fault.columns};
-  if (fault.kind == FaultKind::kJump && table.sound(kStepsKey.key)) {
+  const bool steps = fault.kind == FaultKind::kJump || fault.kind == FaultKind::kOtherCamera;
+  if (steps && table.sound(kStepsKey.key)) {
     if (const std::string wrong = drivers::why_no_move(*context.sheet, by); !wrong.empty()) {
       table.complain(kStepsKey.key, wrong);
     }

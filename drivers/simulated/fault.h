@@ -9,39 +9,41 @@ namespace tubesight::drivers {
 /// What can go wrong between the steam generator and the box; the `kind` of a `[[fault]]`. The list
 /// is closed: docs/scenarios.md tells each with its parameters.
 enum class FaultKind : std::uint8_t {
-  kDropped,     ///< fields are lost; sequence and time show it
-  kRepeated,    ///< the last picture of the same lines is delivered again
-  kTorn,        ///< below a line the picture is still the one before
-  kSwapped,     ///< the two fields of a frame were exposed in the other order
-  kBlack,       ///< no video level
-  kSaturated,   ///< white all over
-  kSignalLoss,  ///< snow
-  kKnock,       ///< the camera is turned against the tool, from then on or for a while
-  kLampOut,     ///< the lighthouse shines with a share of its light
-  kLampsDead,   ///< some of its twelve lamps are dark
-  kLampDrift,   ///< its light changes slowly to a share, and stays there
-  kVibration,   ///< the tool shakes
-  kCut,         ///< nothing for a while, the tool moves on; time shows it
-  kJump,        ///< the tool stands whole lattice steps away at once, and nothing shows it
-  kEmi,         ///< lines are lifted or lowered
-  kSaltPepper,  ///< single pixels are white or black
+  kDropped,      ///< fields are lost; sequence and time show it
+  kRepeated,     ///< the last picture of the same lines is delivered again
+  kTorn,         ///< below a line the picture is still the one before
+  kSwapped,      ///< the two fields of a frame were exposed in the other order
+  kBlack,        ///< no video level
+  kSaturated,    ///< white all over
+  kSignalLoss,   ///< snow
+  kKnock,        ///< the camera is turned against the tool, from then on or for a while
+  kLampOut,      ///< the lighthouse shines with a share of its light
+  kLampsDead,    ///< some of its twelve lamps are dark
+  kLampDrift,    ///< its light changes slowly to a share, and stays there
+  kVibration,    ///< the tool shakes
+  kCut,          ///< nothing for a while, the tool moves on; time shows it
+  kJump,         ///< the tool stands whole lattice steps away at once, and nothing shows it
+  kEmi,          ///< lines are lifted or lowered
+  kSaltPepper,   ///< single pixels are white or black
+  kFrozen,       ///< the picture stands still, under new noise
+  kOtherCamera,  ///< the picture of another toolhead, under another lamp with a pattern of its own
 };
-inline constexpr std::int32_t kFaultKinds = 16;
+inline constexpr std::int32_t kFaultKinds = 18;
 
 /// The word of a kind in files: `dropped`, `signal-loss` ...; the order is that of the kinds.
 inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
-    "dropped",     "repeated", "torn",     "swapped",    "black",      "saturated",
-    "signal-loss", "knock",    "lamp-out", "lamps-dead", "lamp-drift", "vibration",
-    "cut",         "jump",     "emi",      "salt-pepper"};
+    "dropped",     "repeated", "torn",     "swapped",     "black",      "saturated",
+    "signal-loss", "knock",    "lamp-out", "lamps-dead",  "lamp-drift", "vibration",
+    "cut",         "jump",     "emi",      "salt-pepper", "frozen",     "other-camera"};
 
 [[nodiscard]] constexpr std::string_view name_of(FaultKind kind) {
   return kFaultWords[static_cast<std::size_t>(kind)];
 }
 
 /// One fault of a scenario. A field has it when its nominal mid-exposure is in [at_s, at_s +
-/// for_s); for_s = 0 is the first field at or after at_s, but for knock, lamp-out, lamps-dead and
-/// jump, which then last to the end. Swapped and cut go by whole frames, whose instant is that of
-/// their first field. Vibration and lamp-drift need a length.
+/// for_s); for_s = 0 is the first field at or after at_s, but for knock, lamp-out, lamps-dead,
+/// jump, frozen and other-camera, which then last to the end. Swapped and cut go by whole frames,
+/// whose instant is that of their first field. Vibration and lamp-drift need a length.
 struct Fault {
   FaultKind kind = FaultKind::kDropped;
   double at_s = 0.0;                  ///< when it begins, from the recording's start
@@ -57,7 +59,7 @@ struct Fault {
   std::array<double, 3> shake_mm{};   ///< vibration: amplitude in the tool frame
   std::array<double, 3> shake_deg{};  ///< vibration: amplitude about the tool's x, y, z
   double frequency_hz = 20.0;         ///< vibration
-  std::int32_t rows = 0;              ///< jump: lattice steps
+  std::int32_t rows = 0;              ///< jump, other-camera: lattice steps
   std::int32_t columns = 0;
   bool told = true;  ///< signal-loss: the driver marks the fields as damaged;
                      ///< cut: the sequence shows it too
@@ -66,7 +68,8 @@ struct Fault {
 /// Whether a fault without a length lasts to the end of the recording.
 [[nodiscard]] constexpr bool lasts_to_the_end(FaultKind kind) {
   return kind == FaultKind::kKnock || kind == FaultKind::kLampOut ||
-         kind == FaultKind::kLampsDead || kind == FaultKind::kJump;
+         kind == FaultKind::kLampsDead || kind == FaultKind::kJump || kind == FaultKind::kFrozen ||
+         kind == FaultKind::kOtherCamera;
 }
 
 /// Whether a fault takes whole frames, by the instant of their first field.

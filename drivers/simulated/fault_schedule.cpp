@@ -64,6 +64,11 @@ void apply_to_picture(const Fault& fault, FieldFaults& to) {
       to.snow = true;
       to.damaged = to.damaged || fault.told;
       break;
+    case FaultKind::kFrozen: to.frozen = true; break;
+    case FaultKind::kOtherCamera:
+      to.other_camera = true;
+      to.elsewhere = {fault.rows, fault.columns};
+      break;
     case FaultKind::kEmi:
       to.emi_share = std::max(to.emi_share, fault.share);
       to.emi_amplitude = std::max(to.emi_amplitude, fault.amplitude);

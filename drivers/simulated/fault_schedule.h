@@ -29,9 +29,12 @@ struct FieldFaults {
   bool repeated = false;
   bool swapped = false;
   bool snow = false;
-  std::optional<double> torn_after;    ///< share of the lines that are new
-  std::optional<std::uint8_t> filled;  ///< grey value
-  double lamp = 1.0;                   ///< share of the light commanded
+  bool frozen = false;
+  bool other_camera = false;
+  std::array<std::int32_t, 2> elsewhere{};  ///< other-camera: lattice steps, rows and columns
+  std::optional<double> torn_after;         ///< share of the lines that are new
+  std::optional<std::uint8_t> filled;       ///< grey value
+  double lamp = 1.0;                        ///< share of the light commanded
   std::uint16_t dead_lamps = 0;
   core::Transform<core::frames::Camera, core::frames::Camera>
       knock{};  ///< rotation of what is seen

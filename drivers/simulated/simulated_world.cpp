@@ -70,6 +70,7 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
   gap_ = false;
   events_taken_ = 0;
   started_ = false;
+  another_picture_.begin();
   lamp_permille_ = scenario.light.lamp_permille;
   shine_ = lamp_permille_ / 1000.0;
   return {};
@@ -320,6 +321,8 @@ void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {
   exposure.parity = out.field.parity;
   exposure.noise_seed = derived_seed(scenario_->seed, static_cast<std::uint64_t>(out.slot));
   exposure.window = window_;
+  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, following_share(),
+                        scenario_->seed, exposure);
   draw(exposure, out.faults);
 }
 
@@ -359,10 +362,15 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
 
 /// A lag of the first order over one field.
 void SimulatedWorld::warm_lamp() {
-  const double period_s = seconds_of(slot_time(1));
   const double level = lamp_permille_ / 1000.0;
   const double lag_s = scenario_->light.lag_s;
-  shine_ = lag_s > 0.0 ? shine_ + (level - shine_) * (period_s / (period_s + lag_s)) : level;
+  shine_ = lag_s > 0.0 ? shine_ + (level - shine_) * following_share() : level;
+}
+
+/// Of the way to a new level that a lamp goes in one field.
+double SimulatedWorld::following_share() const {
+  const double period_s = seconds_of(slot_time(1));
+  return period_s / (period_s + scenario_->light.lag_s);
 }
 
 /// A dimmer that obeys the robot: a level asked for before a field is in force from the next one.

@@ -14,6 +14,7 @@
 #include "core/base/transform.h"
 #include "core/rendering/renderer.h"
 #include "core/rendering/truth.h"
+#include "drivers/simulated/another_picture.h"
 #include "drivers/simulated/fault_schedule.h"
 #include "drivers/simulated/pixel_faults.h"
 #include "drivers/simulated/scenario.h"
@@ -128,6 +129,7 @@ class SimulatedWorld {
   void draw(const core::rendering::Exposure& exposure, const FieldFaults& faults);
   void follow_slip(SimulatedField& out);
   void warm_lamp();
+  [[nodiscard]] double following_share() const;
   void follow_lamp_commands(const core::EventList& events);
 
   const Scenario* scenario_ = nullptr;
@@ -149,6 +151,7 @@ class SimulatedWorld {
   std::size_t events_taken_ = 0;
   bool started_ = false;  ///< the clicks were handed over
   std::int32_t lamp_permille_ = 1000;
+  AnotherPicture another_picture_;
   double shine_ = 1.0;  ///< the lamp's light, 0..1, which follows the level with its lag
 };
 

@@ -8,6 +8,7 @@
 #include "board/bench/script/simulated_script.h"
 #include "board/box/box_loop.h"
 #include "board/box/pose_service.h"
+#include "core/lighting/lamp_policy.h"
 #include "core/session/session.h"
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_clock.h"
@@ -37,6 +38,7 @@ class SimulatedBench {
 
   drivers::Scenario scenario;
   drivers::SimulatedRobotSettings robot_settings;
+  core::lighting::LampPolicy lamp;  ///< what the box may do with the lamp
 
   /// Puts all together; the operator clicks on three tubes that are truly there. Fails the test
   /// when a part does not start.
@@ -55,6 +57,10 @@ class SimulatedBench {
   /// Of the last field.
   [[nodiscard]] const core::session::Output& output() const { return loop_->output(); }
   [[nodiscard]] const core::Sighting& sighting() const { return loop_->output().sighting; }
+  [[nodiscard]] const core::session::Input& input() const { return loop_->input(); }
+  [[nodiscard]] const core::session::Session<core::FixedPoint>& session() const {
+    return *session_;
+  }
   [[nodiscard]] const drivers::FieldTruth& truth() const { return grabber_->last().truth; }
 
   /// Mean grey value over the box's window in the last frame.

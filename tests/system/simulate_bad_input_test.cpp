@@ -73,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
             "s.toml:30: fault[0].kind: the text 'grey', expected \"dropped\" or \"repeated\" or "
             "\"torn\" or \"swapped\" or \"black\" or \"saturated\" or \"signal-loss\" or "
             "\"knock\" or \"lamp-out\" or \"lamps-dead\" or \"lamp-drift\" or \"vibration\" or "
-            "\"cut\" or \"jump\" or \"emi\" or \"salt-pepper\""},
+            "\"cut\" or \"jump\" or \"emi\" or \"salt-pepper\" or \"frozen\" or "
+            "\"other-camera\""},
         Mistake{"ParameterOfAnotherFault", "for_s = 0.02", "for_s = 0.02\nangle_deg = 0.1",
                 "s.toml:33: fault[0].angle_deg: unknown key, expected one of at_s, for_s, kind, "
                 "level"},

@@ -137,6 +137,21 @@ TEST_F(BoxSettingsTest, ALampOnGpioIsRead) {
                                           "lines = [\"LAMP1\", \"LAMP2\"]\n"));
 }
 
+TEST_F(BoxSettingsTest, ALampIsRuledByThePictureAsSet) {
+  const std::string pwm = "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\nchannel = 1\n";
+  ASSERT_TRUE(load(std::string(kCamera) + pwm)) << messages_.front();
+  EXPECT_TRUE(box_->lamp.automatic && box_->lamp.pattern);
+  ASSERT_TRUE(load(std::string(kCamera) + pwm + "automatic = false\npattern = false\n"));
+  EXPECT_FALSE(box_->lamp.automatic || box_->lamp.pattern);
+  const std::string gpio = "[lamp]\nkind = \"gpio\"\nchip = \"pinctrl\"\n";
+  ASSERT_TRUE(load(std::string(kCamera) + gpio + "lines = [\"18\"]\n"));
+  EXPECT_FALSE(box_->lamp.automatic || box_->lamp.pattern);
+  EXPECT_FALSE(load(std::string(kCamera) + gpio + "lines = [\"1\", \"2\"]\npattern = true\n"));
+  EXPECT_TRUE(told("lamp.pattern: of a lamp without steps, expected it left out"));
+  EXPECT_FALSE(load(std::string(kSource) + "[lamp]\nkind = \"none\"\npattern = true\n"));
+  EXPECT_TRUE(told("lamp.pattern: of a lamp that the box dims, expected it left out"));
+}
+
 TEST_F(BoxSettingsTest, MistakesOfALampAreTold) {
   EXPECT_FALSE(load(std::string(kCamera) +
                     "[lamp]\nkind = \"pwm\"\nlines = [\"1\"]\n"

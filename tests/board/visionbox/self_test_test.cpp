@@ -57,6 +57,16 @@ TEST(SelfTest, FindsEachFault) {
   report = good_report();
   report.tracking.counters.dimmer_errors = 1;
   EXPECT_EQ(bad_row(report), "lamp");
+  for (const auto condition :
+       {core::lighting::LampCondition::kWeak, core::lighting::LampCondition::kDark,
+        core::lighting::LampCondition::kUnseen}) {
+    report = good_report();
+    report.tracking.lamp_ruled = true;
+    report.tracking.lamp_condition = condition;
+    EXPECT_EQ(bad_row(report), "lamp");
+    const std::string meaning(core::lighting::words_of(condition).meaning);
+    EXPECT_NE(self_test_answer(report).find(meaning), std::string::npos) << meaning;
+  }
   report = good_report();
   report.tracking.scheduled = false;
   EXPECT_EQ(bad_row(report), "priority");

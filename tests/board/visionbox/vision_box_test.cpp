@@ -16,6 +16,8 @@
 namespace tubesight::board {
 namespace {
 
+using core::Liveness;
+
 constexpr const char* kFolder = TUBESIGHT_TEST_DATA_DIR "/recordings/square_flush/";
 
 /// The shipped recording in real time, without priority and locks: what a test may ask for.
@@ -111,6 +113,40 @@ TEST(VisionBox, TakesAStartFromTheStationAndAnswersIt) {
   EXPECT_EQ(tests::content_of<core::StartReply>(*reply).refusal, core::StartRefusal::kNone);
   EXPECT_EQ(box->loop().output().sighting.state, core::TrackState::kTracking);
   EXPECT_EQ(box->loop().output().sighting.tool, (core::TubeAddress{40, 60}));
+}
+
+/// A tool at rest under a simulated lamp that the box rules.
+Liveness liveness_of_a_rest(bool pattern) {
+  const auto settings = shipped(false);
+  settings->source.kind = SourceKind::kSimulated;
+  settings->source.loop = true;
+  settings->lamp.pattern = pattern;
+  drivers::Messages messages;
+  EXPECT_TRUE(drivers::load_scenario(TUBESIGHT_TEST_DATA_DIR "/scenarios/rest-square.toml", {},
+                                     settings->scenario, messages));
+  drivers::Scenario& scenario = settings->scenario.scenario;
+  scenario.path.clear();
+  scenario.events.clear();
+  scenario.video.length_s = 60.0;
+  scenario.video.window_margin_px = 0;
+  const auto box = std::make_unique<VisionBox>(*settings, [](const std::string&) {});
+  EXPECT_TRUE(box->start_without_tracking());
+  // Within two seconds where the machine keeps up; fields that come late tell less.
+  const MonotonicTime until = monotonic_now() + std::chrono::seconds(pattern ? 12 : 3);
+  Liveness liveness = Liveness::kUnknown;
+  while (liveness == Liveness::kUnknown && monotonic_now() < until) {
+    box->tracking().turn();
+    liveness = box->loop().output().sighting.liveness;
+  }
+  return liveness;
+}
+
+TEST(VisionBox, ProvesThatASimulatedCameraIsLive) {
+  EXPECT_EQ(liveness_of_a_rest(true), Liveness::kProved);
+}
+
+TEST(VisionBox, ProvesNothingWithoutThePattern) {
+  EXPECT_EQ(liveness_of_a_rest(false), Liveness::kUnknown);
 }
 
 TEST(VisionBox, StartsWithoutItsCameraAndSaysSo) {

@@ -105,6 +105,7 @@ TEST(Names, ReasonsAreOneWordEach) {
                                                           {Reason::kRate, "rate"},
                                                           {Reason::kMap, "map"},
                                                           {Reason::kFieldOrder, "field-order"},
+                                                          {Reason::kNotLive, "not-live"},
                                                           {Reason::kArithmetic, "arithmetic"}};
   for (const auto& [reason, word] : expected) {
     EXPECT_EQ(core::name_of(reason), word);

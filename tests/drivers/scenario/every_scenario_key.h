@@ -281,6 +281,17 @@ at_s = 0.125
 for_s = 0.125
 share = 0.25
 
+[[fault]]
+kind = "frozen"
+at_s = 0.125
+for_s = 0.125
+
+[[fault]]
+kind = "other-camera"
+at_s = 0.125
+for_s = 0.125
+steps = [2, -4]
+
 [[event]]
 at_s = 0.5
 kind = "claim"

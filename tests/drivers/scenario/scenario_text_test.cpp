@@ -116,7 +116,8 @@ TEST(ScenarioText, TellsEveryKeyOfTheTestFromItsDefault) {
   }
   for (const std::string_view kind : drivers::kFaultWords) {
     plain += "[[fault]]\nat_s = 0.5\nkind = \"" + std::string(kind) + "\"\n";
-    plain += kind == "lamps-dead" ? "lamps = [2]\n" : kind == "jump" ? "steps = [2, 2]\n" : "";
+    const bool steps = kind == "jump" || kind == "other-camera";
+    plain += kind == "lamps-dead" ? "lamps = [2]\n" : steps ? "steps = [2, 2]\n" : "";
     plain += kind == "vibration" || kind == "lamp-drift" ? "for_s = 0.5\n" : "";
   }
   const Reading read(plain);

@@ -157,6 +157,8 @@ TEST(FaultWords, AreOneForEachKind) {
   EXPECT_EQ(name_of(FaultKind::kSignalLoss), "signal-loss");
   EXPECT_EQ(name_of(FaultKind::kCut), "cut");
   EXPECT_EQ(name_of(FaultKind::kSaltPepper), "salt-pepper");
+  EXPECT_EQ(name_of(FaultKind::kFrozen), "frozen");
+  EXPECT_EQ(name_of(FaultKind::kOtherCamera), "other-camera");
 }
 
 }  // namespace

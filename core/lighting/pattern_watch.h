@@ -1,0 +1,168 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/base/field.h"
+#include "core/base/sighting.h"
+
+namespace tubesight::core::lighting {
+
+/// Lags of a lamp that are tried: time constants of the first order. An LED has none, a small
+/// incandescent bulb some tenths of a second.
+inline constexpr std::array<std::int32_t, 5> kLags_us = {0, 30'000, 70'000, 150'000, 300'000};
+inline constexpr std::size_t kLags = kLags_us.size();
+
+/// Whether the brightness of the picture follows the levels of the lamp that were in force.
+///
+/// Both are looked at as second differences over some 67 ms, u of the brightness and v of the level
+/// led through a lag: that leaves of the light of a tool that moves smoothly next to nothing, and
+/// of the pattern most. The gain g = sum(uv) / sum(vv) is 1 where all light is the lamp's and 0 in
+/// a picture that knows nothing of it; what u and g v differ by says how well g is known. It is
+/// looked at over the last 1.75 s, which do at rest, over 3.5 s and over 9 s, four times a second.
+///
+/// Levels count as they were in force, not as they were wanted: no pattern need be known, and what
+/// a recording holds is enough to come to the same answer.
+class PatternWatch {
+ public:
+  void begin();
+
+  /// Takes a field: the change of its light since the last one of its parity (BrightnessTrail) and
+  /// the level in force. Instants grow.
+  void follow(const Field& field, std::optional<std::int32_t> change_q16);
+
+  /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
+  [[nodiscard]] Liveness liveness() const { return liveness_; }
+
+  /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
+  /// deviations, 1/16; 0: it was not. For the study of false alarms.
+  [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream);
+
+ private:
+  static constexpr std::int32_t kMostChains = 1 << 30;
+  static constexpr std::int32_t kMostLight = 1 << 28;
+
+  /// A field of the last 0.3 s.
+  struct Moment {
+    FieldTime at{0};
+    std::int32_t chain = 0;  ///< brightnesses of one chain can be compared
+    std::int32_t light_q16 = 0;
+    std::array<std::int32_t, kLags> level_q16{};
+
+    template <typename Self, typename Stream>
+    static void transfer(Self& self, Stream& stream) {
+      auto& [instant, which, light, levels] = self;
+      stream(instant);
+      stream.number(which, 0, kMostChains);
+      stream.number(light, -kMostLight, kMostLight);
+      for (auto& level : levels) {
+        stream.number(level, 0, kFullLamp_permille << 16);
+      }
+    }
+  };
+
+  /// Sums over some time of numbers in 1/65536.
+  struct Sums {
+    std::int64_t count = 0;
+    std::int64_t uu = 0;
+    std::array<std::int64_t, kLags> uv{};
+    std::array<std::int64_t, kLags> vv{};
+
+    void add(const Sums& other);
+    template <typename Self, typename Stream>
+    static void transfer(Self& self, Stream& stream) {
+      auto& [n, squares, products, levels] = self;
+      constexpr std::int64_t kMost = std::int64_t{1} << 40;
+      stream.number(n, 0, 1 << 20);
+      stream.number(squares, 0, kMost);
+      for (auto& one : products) {
+        stream.number(one, -kMost, kMost);
+      }
+      for (auto& one : levels) {
+        stream.number(one, 0, kMost);
+      }
+    }
+  };
+
+  /// What sums say of the gain with one lag.
+  struct Gain {
+    bool known = false;
+    std::int32_t q10 = 0;           ///< 1024: all light is the lamp's
+    std::int32_t sigma_q10 = 0;     ///< its standard deviation
+    std::int32_t likeness_q10 = 0;  ///< square of the correlation
+
+    /// So many deviations above `limit_q10`, in 1/16.
+    [[nodiscard]] std::int32_t above_q4(std::int32_t limit_q10) const;
+  };
+
+  static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
+  static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
+  static constexpr std::int32_t kMiddleBlocks = 14;
+  static constexpr std::int32_t kBlocks = 36;
+
+  void sample(const Moment& now);
+  [[nodiscard]] const Moment* before(const Moment& moment, std::uint32_t& place) const;
+  void close_block();
+  [[nodiscard]] Sums sum_of(std::int32_t blocks) const;
+  [[nodiscard]] static Gain gain_of(const Sums& sums, std::size_t lag);
+  [[nodiscard]] std::int32_t limit_q10() const;
+  [[nodiscard]] Liveness judge(const Sums& sums);
+  [[nodiscard]] Liveness judge_unlearnt(const Sums& sums);
+  void learn(const Sums& sums);
+  void hold(Liveness told);
+
+  std::array<std::int32_t, kLags> level_q16_{};  ///< led through each lag
+  bool led_ = false;
+  FieldTime last_{0};
+  std::array<std::int32_t, 2> light_q16_{};  ///< of the odd lines and of others: sums of changes
+  std::array<std::int32_t, 2> chain_{};
+  std::int32_t chains_ = 0;
+
+  std::array<Moment, kMoments> moments_{};
+  std::uint32_t next_moment_ = 0;
+  Sums now_{};  ///< of the block that is not full yet
+  FieldTime block_until_{0};
+  std::array<Sums, kBlocks> blocks_{};
+  std::uint32_t next_block_ = 0;
+
+  std::int32_t level_permille_ = 0;      ///< in force in the last field
+  std::int32_t learnt_lag_ = -1;         ///< place in kLags_us; -1: nothing was proved yet
+  std::int32_t learnt_gain_q10_ = 0;     ///< of the lamp's light in the picture
+  std::int32_t learnt_at_permille_ = 0;  ///< with that level
+  Liveness liveness_ = Liveness::kUnknown;
+  std::int32_t undecided_ = 0;  ///< blocks since something was certain
+  std::int32_t score_q4_ = 0;
+};
+
+template <typename Self, typename Stream>
+void PatternWatch::transfer(Self& self, Stream& stream) {
+  auto& [levels, led, last, lights, chain, chains, moments, next_moment, now, block_until, blocks,
+         next_block, level, lag, gain, gain_at, told, undecided, score] = self;
+  for (auto& one : levels) {
+    stream.number(one, 0, kFullLamp_permille << 16);
+  }
+  stream(led, last);
+  for (auto& one : lights) {
+    stream.number(one, -kMostLight, kMostLight);
+  }
+  for (auto& one : chain) {
+    stream.number(one, 0, kMostChains);
+  }
+  stream.number(chains, 0, kMostChains);
+  stream(moments, next_moment, now, block_until, blocks, next_block);
+  stream.number(level, 0, kFullLamp_permille);
+  stream.number(lag, -1, static_cast<std::int32_t>(kLags) - 1);
+  stream.number(gain, 0, 1024);
+  stream.number(gain_at, 0, kFullLamp_permille);
+  stream.choice(told, Liveness::kFailed);
+  stream.number(undecided, 0, 1 << 20);
+  stream(score);
+}
+
+}  // namespace tubesight::core::lighting

@@ -1,0 +1,153 @@
+#include "core/lighting/pattern_watch.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/lighting/lamp_pattern.h"
+
+namespace tubesight::core::lighting {
+namespace {
+
+/// A lamp, its pattern and a brightness that follows it as far as a test says. Sixty fields a
+/// second.
+class WatchedLamp : public testing::Test {
+ protected:
+  WatchedLamp() { pattern_.begin(11); }
+
+  struct World {
+    double lag_s = 0.05;
+    double share = 1.0;   ///< of the lamp in all light
+    double noise = 1e-3;  ///< sigma of the brightness from field to field, of itself
+    double level = 600.0;
+    bool frozen = false;
+    bool swings = true;
+  };
+
+  /// Seconds until the watch says `wanted`; -1: it did not in that time.
+  double run_until(Liveness wanted, double longest_s, const World& world) {
+    for (int i = 0; i < static_cast<int>(longest_s * 60.0); ++i) {
+      step(world);
+      if (watch_.liveness() == wanted) {
+        return (i + 1) / 60.0;
+      }
+    }
+    return -1.0;
+  }
+
+  void step(const World& world) {
+    constexpr double kSpan_s = 1.0 / 60.0;
+    now_ += std::chrono::nanoseconds(16'666'667);
+    shine_ += (level_ - shine_) * (kSpan_s / (kSpan_s + world.lag_s));
+    if (!world.frozen) {
+      light_ = world.share * shine_ / 600.0 + (1.0 - world.share);
+    }
+    const std::size_t odd = number_ % 2 != 0 ? 1 : 0;
+    const double seen = light_ * (1.0 + world.noise * gauss_(random_));
+    Field field;
+    field.mid_exposure = now_;
+    field.parity = odd != 0 ? Parity::kOdd : Parity::kEven;
+    field.lamp_permille = static_cast<std::int32_t>(level_);
+    std::optional<std::int32_t> change;
+    if (number_ >= 2) {
+      change = static_cast<std::int32_t>(
+          std::lround((seen - last_[odd]) / (seen + last_[odd]) * 131'072.0));
+    }
+    last_[odd] = seen;
+    ++number_;
+    watch_.follow(field, change);
+    level_ = world.swings ? swung_permille(static_cast<std::int32_t>(world.level),
+                                           pattern_.sign_after(now_), 1000)
+                          : world.level;
+  }
+
+  PatternWatch watch_;
+  LampPattern pattern_;
+  FieldTime now_{std::chrono::seconds(5)};
+  double level_ = 600.0;
+  double shine_ = 600.0;
+  double light_ = 1.0;
+  std::array<double, 2> last_{};
+  int number_ = 0;
+  std::mt19937 random_{5};
+  std::normal_distribution<double> gauss_;
+};
+
+TEST_F(WatchedLamp, IsProvedWithinTwoSecondsAtRest) {
+  for (const double lag_s : {0.0, 0.02, 0.05, 0.1, 0.2, 0.3}) {
+    watch_.begin();
+    const double proved_s = run_until(Liveness::kProved, 5.0, {.lag_s = lag_s});
+    EXPECT_GE(proved_s, 0.0) << lag_s;
+    EXPECT_LE(proved_s, lag_s > 0.2 ? 4.0 : 2.0) << lag_s;
+  }
+}
+
+TEST_F(WatchedLamp, IsProvedWithinTenSecondsWhileMoving) {
+  // As measured on drawn fields at 300 mm/s: 0.3 % from field to field.
+  for (const double lag_s : {0.0, 0.05, 0.1}) {
+    watch_.begin();
+    const double proved_s = run_until(Liveness::kProved, 20.0, {.lag_s = lag_s, .noise = 3e-3});
+    EXPECT_GE(proved_s, 0.0) << lag_s;
+    EXPECT_LE(proved_s, 10.0) << lag_s;
+  }
+}
+
+TEST_F(WatchedLamp, IsRefutedByAFrozenPictureUnderNoise) {
+  for (const double lag_s : {0.0, 0.05, 0.1, 0.2}) {
+    watch_.begin();
+    ASSERT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = lag_s}), 0.0);
+    ASSERT_LT(run_until(Liveness::kFailed, 12.0, {.lag_s = lag_s}), 0.0);
+    const double failed_s = run_until(Liveness::kFailed, 5.0, {.lag_s = lag_s, .frozen = true});
+    EXPECT_GE(failed_s, 0.0) << lag_s;
+    EXPECT_LE(failed_s, lag_s > 0.1 ? 4.0 : 2.0) << lag_s;
+    // And back.
+    const double proved_s = run_until(Liveness::kProved, 5.0, {.lag_s = lag_s});
+    EXPECT_GE(proved_s, 0.0) << lag_s;
+    EXPECT_LE(proved_s, 2.0) << lag_s;
+  }
+}
+
+TEST_F(WatchedLamp, IsRefutedWhereAllLightIsAnother) {
+  ASSERT_GE(run_until(Liveness::kProved, 5.0, {.share = 0.5}), 0.0);
+  ASSERT_LT(run_until(Liveness::kFailed, 10.0, {.share = 0.5}), 0.0);
+  const double failed_s = run_until(Liveness::kFailed, 5.0, {.share = 0.0});
+  EXPECT_GE(failed_s, 0.0);
+  EXPECT_LE(failed_s, 2.0);
+}
+
+TEST_F(WatchedLamp, StaysUnknownWhereNothingSwings) {
+  EXPECT_LT(run_until(Liveness::kFailed, 30.0, {.swings = false}), 0.0);
+  EXPECT_EQ(watch_.liveness(), Liveness::kUnknown);
+}
+
+TEST_F(WatchedLamp, BecomesUnknownWhenTheSwingEnds) {
+  ASSERT_GE(run_until(Liveness::kProved, 5.0, {}), 0.0);
+  const double unknown_s = run_until(Liveness::kUnknown, 30.0, {.swings = false});
+  EXPECT_GT(unknown_s, 5.0);
+  EXPECT_LE(unknown_s, 21.0) << "what is left of nine seconds, and ten";
+}
+
+TEST_F(WatchedLamp, IsNotRefutedByLittleOfTheLamp) {
+  // Most light is another's from the beginning.
+  EXPECT_LT(run_until(Liveness::kFailed, 60.0, {.share = 0.15}), 0.0);
+}
+
+TEST_F(WatchedLamp, KnowsThatADimmedLampHasALesserShare) {
+  // Half of the light at 600 permille, a sixth at 120.
+  ASSERT_GE(run_until(Liveness::kProved, 5.0, {.share = 0.5}), 0.0);
+  ASSERT_LT(run_until(Liveness::kFailed, 10.0, {.share = 0.5}), 0.0);
+  EXPECT_LT(run_until(Liveness::kFailed, 30.0, {.share = 0.5, .level = 120.0}), 0.0);
+}
+
+TEST_F(WatchedLamp, IsNeitherProvedNorRefutedByNoiseAlone) {
+  // Before anything was proved, with more noise than a lamp could be seen in.
+  EXPECT_LT(run_until(Liveness::kProved, 120.0, {.noise = 0.05, .frozen = true}), 0.0);
+}
+
+}  // namespace
+}  // namespace tubesight::core::lighting
