@@ -93,13 +93,16 @@ check_stage() {
 }
 
 # Builds a stage while another's tests run, which leave processors idle: in the background, in a process
-# group of its own, so that the trap ends all of it, and with the lowest priority, as some of the tests
-# keep time.
+# group of its own, so that the trap ends all of it, and only with what is left of the processors, as some
+# of the tests keep time.
 build_ahead() {
   ahead=$1
   set -m
   (
-    [ "$stage" = format ] || renice -n 19 "$BASHPID" > "$work/renice"
+    if [ "$stage" != format ]; then
+      renice -n 19 "$BASHPID"
+      chrt --idle --pid 0 "$BASHPID"
+    fi > "$work/priority" 2>&1
     measured "building $1" build_stage "$1"
   ) > "$work/$1.log" 2>&1 < /dev/null &
   builder=$!
