@@ -15,12 +15,20 @@ fi
 folder=$1
 [ ! -f "$folder/usr/include/gpiod.h" ] || exit 0
 
+# From where this machine has its own packages: the first archive of a whole release.
+mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE) $(COMPONENT)' 'Identifier: Packages' \
+  | awk '$2 !~ /[-\/]/ && $3 == "main" { print $1; exit }')
+if [ -z "$mirror" ]; then
+  echo "$0: this machine's package sources name no archive of Debian" >&2
+  exit 1
+fi
+
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$work"/{state/lists/partial,cache/archives/partial}
 touch "$work/status"
 keyring=/usr/share/keyrings/debian-archive-keyring.gpg
-echo "deb [signed-by=$keyring] http://deb.debian.org/debian trixie main" > "$work/sources.list"
+echo "deb [signed-by=$keyring] $mirror trixie main" > "$work/sources.list"
 cat > "$work/apt.conf" <<CONF
 APT::Sandbox::User "root";
 Dir::State "$work/state";
