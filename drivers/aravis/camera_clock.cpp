@@ -19,6 +19,12 @@ constexpr std::int64_t kNoClock_ppb = 2'000'000;
 /// less.
 constexpr std::int64_t kPartOfFrame = 4;
 
+/// What a drift makes of a time, ns. By whole milliseconds: the product stays below 2^63 for all
+/// that a stamp may be.
+constexpr std::int64_t drifted(std::int64_t gone_ns, std::int64_t drift_ppb) {
+  return gone_ns / 1'000'000 * drift_ppb / 1000;
+}
+
 }  // namespace
 
 void CameraClock::begin(FieldTime frame) {
@@ -26,6 +32,7 @@ void CameraClock::begin(FieldTime frame) {
   last_stamp_ = 0;
   distrusted_ = false;
   unsettled_ = 0;
+  floor_ = INT64_MAX;
   forget();
 }
 
@@ -46,11 +53,17 @@ const CameraClock::Least& CameraClock::least_of(std::size_t from, std::size_t to
 std::int64_t CameraClock::least_at(std::int64_t stamp) const {
   std::int64_t least = INT64_MAX;
   for (std::size_t i = 0; i < seconds_; ++i) {
-    // Whole microseconds: the product stays below 2^63 for a thousand years.
-    const std::int64_t gone_us = (stamp - least_[i].at) / 1000;
-    least = std::min(least, least_[i].difference + gone_us * drift_ppb_ / 1'000'000);
+    least = std::min(least, least_[i].difference + drifted(stamp - least_[i].at, drift_ppb_));
   }
   return least;
+}
+
+/// The most that the difference of a picture that did not wait can be.
+std::int64_t CameraClock::floor_at(std::int64_t stamp) const {
+  if (floor_ == INT64_MAX) {
+    return INT64_MAX;
+  }
+  return floor_ + drifted(stamp - floor_at_, kMostDrift_ppb);
 }
 
 void CameraClock::follow_drift() {
@@ -103,6 +116,7 @@ CameraClock::Reading CameraClock::read(std::uint64_t stamp_ns, FieldTime arrival
   const bool back = stamp <= last_stamp_;
   last_stamp_ = std::max<std::int64_t>(stamp, 1);
   if (back) {
+    floor_ = INT64_MAX;  // another clock: the camera was switched off and on, say
     return doubt(Verdict::kWentBack, arrival);
   }
   const std::int64_t difference = arrival.count() - stamp;
@@ -110,17 +124,22 @@ CameraClock::Reading CameraClock::read(std::uint64_t stamp_ns, FieldTime arrival
   if (seconds_ > 0) {
     const std::int64_t later = difference - least_at(stamp);
     if (later > kOldest_ns) {
-      return doubt(Verdict::kTooOld, arrival);
+      // Nothing is learnt of it: it stays too old, however many others come as late.
+      return {FieldTime{stamp + least_at(stamp)}, Verdict::kTooOld};
     }
     if (later < -frame_.count() / kPartOfFrame) {
       // The pictures before were older than they looked, or this one's clock is ahead.
       const Reading reading = doubt(settled ? Verdict::kJumped : Verdict::kSettling, arrival);
+      floor_ = difference;
+      floor_at_ = stamp;
       take(stamp, difference);
       agreed_ = 1;
       return reading;
     }
   }
-  take(stamp, difference);
+  floor_ = std::min(difference, floor_at(stamp));
+  floor_at_ = stamp;
+  take(stamp, floor_);
   const FieldTime time{stamp + std::min(least_at(stamp), difference)};
   if (distrusted_) {
     return {arrival, Verdict::kByArrival};

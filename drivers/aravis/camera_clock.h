@@ -19,7 +19,9 @@ namespace tubesight::drivers::aravis {
 /// the instant at which the picture would have arrived without waiting, whatever moment of its
 /// exposure the camera stamps. Quartzes differ by up to 100 millionths: the minima of whole seconds
 /// are kept for eight of them, and the line through the older and the newer half of them is
-/// followed. No heap.
+/// followed. Differences that grow faster than two quartzes part are pictures that wait, as a
+/// camera with much memory behind a slow network lets them: they keep their own times, and are
+/// never taken for present ones. No heap.
 class CameraClock {
  public:
   enum class Verdict : std::uint8_t {
@@ -27,7 +29,7 @@ class CameraClock {
     kSettling,   ///< too few pictures, or old ones that a camera still had: not to be believed yet
     kJumped,     ///< the camera's clock went ahead of ours
     kWentBack,   ///< the stamp is not after the one before
-    kTooOld,     ///< the picture waited longer than all buffers together hold
+    kTooOld,     ///< the picture waited longer than all buffers together hold, or the clock is slow
     kByArrival,  ///< there is no stamp to go by: the time is that of arrival
   };
 
@@ -63,6 +65,7 @@ class CameraClock {
   void take(std::int64_t stamp, std::int64_t difference);
   void follow_drift();
   [[nodiscard]] std::int64_t least_at(std::int64_t stamp) const;
+  [[nodiscard]] std::int64_t floor_at(std::int64_t stamp) const;
   [[nodiscard]] const Least& least_of(std::size_t from, std::size_t to) const;
   Reading doubt(Verdict verdict, core::FieldTime arrival);
 
@@ -70,6 +73,8 @@ class CameraClock {
   std::array<Least, kSeconds> least_{};  ///< the oldest first
   std::size_t seconds_ = 0;              ///< of those, known
   std::int64_t drift_ppb_ = 0;           ///< of the difference
+  std::int64_t floor_ = INT64_MAX;       ///< difference of a picture that did not wait; unknown
+  std::int64_t floor_at_ = 0;            ///< stamp
   std::int64_t last_stamp_ = 0;          ///< 0: there was none
   std::int32_t agreed_ = 0;              ///< pictures in a row
   std::int32_t unsettled_ = 0;           ///< pictures in a row
