@@ -12,7 +12,7 @@
 #   bench-asan      the tests under the address and undefined-behaviour sanitizers, built by clang
 #   visionbox-qemu  arm64 build, its tests run under emulation
 #   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
-#   bench-quick     in the folder of bench: the program, the tests that take less than a second, layering
+#   bench-quick     the program and the tests that take less than a second, compiled in less time, layering
 #   bench-long      each source and each header compiled alone, and the tests labelled `long`
 #   bench-tidy      clang-tidy on all but the tests
 #
@@ -67,7 +67,6 @@ measured() {
 # The configure preset of a stage, which is also the folder in build/.
 folder_of() {
   case $1 in
-    bench-quick) echo bench ;;
     bench-fuzz) echo bench-asan ;;
     *) echo "$1" ;;
   esac
@@ -114,7 +113,6 @@ for stage in "${stages[@]}"; do
   result=build/$(folder_of "$stage")/ctest.xml
   case $stage in
     format | bench-tidy) continue ;;
-    bench-quick) result=build/bench/ctest-quick.xml ;;
     bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
   esac
   rm -f "$result"
