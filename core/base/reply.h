@@ -29,6 +29,7 @@ enum class StartRefusal : std::uint8_t {
   kElsewhere,      ///< the tool was just seen too far from there; a confirmed start is taken
   kNotLive,        ///< the picture does not follow the lamp: it is not live, or the lamp is dead
 };
+inline constexpr StartRefusal kLastStartRefusal = StartRefusal::kNotLive;  ///< of the list
 
 /// What the box says to a claim.
 enum class ClaimVerdict : std::uint8_t {

@@ -40,6 +40,7 @@ enum class Reason : std::uint8_t {
   kMap,           ///< lost: plugs or places without a tube look like open tube-ends
   kNotLive,       ///< lost: the picture does not follow the lamp
 };
+inline constexpr Reason kLastReason = Reason::kNotLive;  ///< of the list
 
 /// Whether the picture is known to be live; the column `liveness`.
 enum class Liveness : std::uint8_t {

@@ -35,7 +35,7 @@ void transfer(Self& self, Stream& stream) {
   stream.number(judged_fields, 0, kMostCounted);
   stream(age);
   stream.choice(state, TrackState::kLost);
-  stream.choice(reason, Reason::kNotLive);
+  stream.choice(reason, kLastReason);
   stream(tracked, primary_known, primary, primary_px, axis_known, axis_px, height, tool_known, tool,
          tool_px, offset, displacement, aligned, velocity_known, velocity);
   stream.number(velocity_span, 0, std::numeric_limits<std::int32_t>::max());

@@ -43,7 +43,7 @@ class Doubt {
     auto& [contradictions, to_agree, why] = self;
     stream.number(contradictions, 0, 1 << 30);
     stream.number(to_agree, 0, kMustAgree);
-    stream.choice(why, Reason::kNotLive);
+    stream.choice(why, kLastReason);
   }
 
  private:

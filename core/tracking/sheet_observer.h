@@ -46,7 +46,7 @@ struct Observation {
     auto& [is_fitted, why_not, refuted, fitting, sheet, tool_at, deviation, picture_deviation] =
         self;
     stream(is_fitted);
-    stream.choice(why_not, Reason::kNotLive);
+    stream.choice(why_not, kLastReason);
     stream(refuted, fitting, sheet, tool_at, deviation, picture_deviation);
   }
 };

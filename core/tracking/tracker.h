@@ -80,9 +80,9 @@ class Tracker {
            clock, gate, doubts, old_pictures, order, observer, last_place, map_watch, confirmed] =
         self;
     stream.choice(state, TrackState::kLost);
-    stream.choice(reason, Reason::kNotLive);
+    stream.choice(reason, kLastReason);
     stream(clicks);
-    stream.choice(start_refusal, StartRefusal::kNotLive);
+    stream.choice(start_refusal, kLastStartRefusal);
     stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order, observer,
            last_place, map_watch, confirmed);
   }

@@ -34,7 +34,7 @@ std::uint64_t digest_of(const Output& output) {
       digest.choice(claim->verdict, ClaimVerdict::kUnknown);
       digest.choice(claim->doubt, ClaimDoubt::kBusy);
     } else if (const auto* const start = content_if<StartReply>(reply)) {
-      digest.choice(start->refusal, StartRefusal::kNotLive);
+      digest.choice(start->refusal, kLastStartRefusal);
     } else if (const auto* const pick = content_if<PickReply>(reply)) {
       digest(pick->tube);
       digest.choice(pick->doubt, PickDoubt::kUnknownField);
