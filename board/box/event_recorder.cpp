@@ -24,14 +24,6 @@ constexpr core::FieldTime kBetweenDisagreements = std::chrono::seconds(30);
 
 void count(std::atomic<std::uint32_t>& counter) { counter.fetch_add(1, std::memory_order_relaxed); }
 
-/// The parity of the field of this number.
-Parity parity_of(Scan scan, std::int64_t number) {
-  if (scan == Scan::kProgressive) {
-    return Parity::kProgressive;
-  }
-  return (scan == Scan::kOddFirst) == (number % 2 == 0) ? Parity::kOdd : Parity::kEven;
-}
-
 }  // namespace
 
 /// Fields in a row with the state before the first.
@@ -81,7 +73,8 @@ Result<void> EventRecorder::configure(const RecorderSettings& settings,
 
 /// Files know a field by its number, and its lines by that.
 bool EventRecorder::fits(const Field& field) const {
-  if (field.number <= number_ || field.parity != parity_of(camera_.scan, field.number)) {
+  if (field.number <= number_ ||
+      field.parity != core::parity_of(camera_.scan, field.number % 2 != 0)) {
     // A missing field has no parity of its own.
     return field.number > number_ && field.status == FieldStatus::kMissing;
   }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/base/image_view.h"
 #include "core/base/static_vector.h"
 #include "core/base/tube_address.h"
 
@@ -10,6 +11,14 @@ namespace tubesight::core {
 
 /// How a camera delivers its lines.
 enum class Scan : std::uint8_t { kEvenFirst, kOddFirst, kProgressive };
+
+/// Which lines the earlier or the later field of a frame has.
+[[nodiscard]] constexpr Parity parity_of(Scan scan, bool later) {
+  if (scan == Scan::kProgressive) {
+    return Parity::kProgressive;
+  }
+  return (scan == Scan::kOddFirst) != later ? Parity::kOdd : Parity::kEven;
+}
 
 /// Internal parameters of the camera [Fallon eq. 4.5-4.9]; the table `[camera]`.
 struct CameraSettings {

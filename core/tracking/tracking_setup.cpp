@@ -39,9 +39,7 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   model.tip_mm = {Mm<S>(tip[0]), Mm<S>(tip[1]), Mm<S>(tip[2])};
   model.bore_radius_mm = Mm<S>(settings.tubesheet.bore_mm / 2.0);
   model.weld = settings.tubesheet.weld;
-  model.first_field = settings.camera.scan == Scan::kProgressive ? Parity::kProgressive
-                      : settings.camera.scan == Scan::kOddFirst  ? Parity::kOdd
-                                                                 : Parity::kEven;
+  model.first_field = parity_of(settings.camera.scan, false);
   model.picture_width_px = settings.camera.width_px;
   model.picture_height_px = settings.camera.height_px;
   constexpr std::int32_t kUsualSide_px = 640;

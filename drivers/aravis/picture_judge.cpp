@@ -7,22 +7,6 @@ namespace {
 
 using core::FieldStatus;
 using core::FieldTime;
-using core::Parity;
-
-constexpr Parity other(Parity parity) {
-  return parity == Parity::kEven ? Parity::kOdd : Parity::kEven;
-}
-
-/// The settings say it: a converter of analogue video knows no more of it than they do, and the
-/// tracking finds out when they err.
-constexpr Parity first_of(core::Scan scan) {
-  switch (scan) {
-    case core::Scan::kEvenFirst: return Parity::kEven;
-    case core::Scan::kOddFirst: return Parity::kOdd;
-    case core::Scan::kProgressive: break;
-  }
-  return Parity::kProgressive;
-}
 
 }  // namespace
 
@@ -52,7 +36,9 @@ core::Field PictureJudge::first_field(const Picture& picture) {
   ++report_->counters.buffers;
   report_->trouble = AravisTrouble::kNone;
   first_ = {};
-  first_.parity = first_of(scan_);
+  // The settings say it: a converter of analogue video knows no more of it than they do, and the
+  // tracking finds out when they err.
+  first_.parity = core::parity_of(scan_, false);
   judge_pixels(picture);
   judge_number(picture);
   judge_time(picture);
@@ -117,7 +103,7 @@ void PictureJudge::judge_time(const Picture& picture) {
 
 core::Field PictureJudge::second_field() const {
   core::Field field = first_;
-  field.parity = other(first_.parity);
+  field.parity = core::parity_of(scan_, true);
   field.sequence += 1;
   field.number += 1;
   field.mid_exposure += agreed_.span;

@@ -43,13 +43,6 @@ constexpr bool agree(Y4mInterlacing interlacing, Scan scan) {
   return false;
 }
 
-constexpr core::Parity parity_of(Scan scan, bool later) {
-  if (scan == Scan::kProgressive) {
-    return core::Parity::kProgressive;
-  }
-  return (scan == Scan::kOddFirst) != later ? core::Parity::kOdd : core::Parity::kEven;
-}
-
 std::string size_words(std::int32_t width_px, std::int32_t height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px);
 }
@@ -265,7 +258,7 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   }
   const std::int64_t number = *next;
   core::Field field;
-  field.parity = parity_of(camera_.scan, later_field_);
+  field.parity = core::parity_of(camera_.scan, later_field_);
   field.pixels = core::field_of(frame(), field.parity);
   TUBESIGHT_TRY(describe(number, field));
   if (field.status == core::FieldStatus::kMissing) {

@@ -116,11 +116,7 @@ FieldSlot SimulatedWorld::slot_at(std::int64_t slot) const {
 }
 
 Parity SimulatedWorld::parity_of(std::int64_t slot) const {
-  if (!interlaced_) {
-    return Parity::kProgressive;
-  }
-  const bool odd_first = scenario_->scene.camera.scan == core::Scan::kOddFirst;
-  return (slot % 2 != 0) != odd_first ? Parity::kOdd : Parity::kEven;
+  return core::parity_of(scenario_->scene.camera.scan, slot % 2 != 0);
 }
 
 SimulatedWorld::SheetTool SimulatedWorld::pose_at(double time_s, const FieldFaults& faults) {

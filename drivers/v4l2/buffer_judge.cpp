@@ -24,15 +24,6 @@ constexpr Parity other(Parity parity) {
   return parity == Parity::kEven ? Parity::kOdd : Parity::kEven;
 }
 
-constexpr Parity first_of(core::Scan scan) {
-  switch (scan) {
-    case core::Scan::kEvenFirst: return Parity::kEven;
-    case core::Scan::kOddFirst: return Parity::kOdd;
-    case core::Scan::kProgressive: break;
-  }
-  return Parity::kProgressive;
-}
-
 }  // namespace
 
 void BufferJudge::begin(core::Scan scan, const AgreedFormat& agreed, FieldTime exposure,
@@ -81,7 +72,7 @@ Parity BufferJudge::parity_of(const v4l2_buffer& buffer) {
   const bool says_odd =
       buffer.field == V4L2_FIELD_INTERLACED_BT || buffer.field == V4L2_FIELD_SEQ_BT;
   counters.odd_order += (scan_ == core::Scan::kOddFirst ? says_even : says_odd) ? 1 : 0;
-  return first_of(scan_);
+  return core::parity_of(scan_, false);
 }
 
 core::Field BufferJudge::first_field(const v4l2_buffer& buffer, const Arrival& arrival,
@@ -115,7 +106,7 @@ void BufferJudge::count(const v4l2_buffer& buffer) {
   }
   report_->counts = sequence_.counts();
   // Two numbers a frame, the even one of its first field.
-  const bool later = first_.parity != first_of(scan_);
+  const bool later = first_.parity != core::parity_of(scan_, false);
   first_.number = last_number_ + ((last_number_ % 2 != 0) == later ? 2 : 1);
   last_number_ = first_.number;
   last_parity_ = first_.parity;
