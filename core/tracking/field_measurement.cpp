@@ -154,9 +154,9 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     const std::int32_t inside =
         edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2);
     Finding finding = Finding::kBright;
+    bounds.step_px = reading_step<S>(model, box);
     if (inside <= light.region_threshold) {
       bounds.range_px = std::min(look.range_px, std::max(3, box.half_u / 2));
-      bounds.step_px = reading_step<S>(model, box);
       finding = measure_tube<S>(field, rim, bounds, light.edge_threshold, tube);
     }
     if (finding == Finding::kMeasured) {
@@ -164,7 +164,7 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       record.plugs.saw_open(candidate.address);
       static_cast<void>(record.measured.try_push_back(tube));
       // Midway between this tube-end's inside and its surroundings, followed slowly.
-      const std::int32_t middle = inside + tube.contrast / 2;
+      const std::int32_t middle = inside + tube.contrast_q4 / 32;
       light.region_threshold += (middle - light.region_threshold) / 4;
       light.region_threshold = std::max(light.region_threshold, 16);
       continue;
@@ -176,7 +176,6 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
     MeasurementBounds around = bounds;
     around.range_px = look.range_px;
-    around.step_px = reading_step<S>(model, box);
     note_plug<S>(field, candidate.address, rim.center, box, around, finding, record);
   }
   return count;

@@ -215,7 +215,6 @@ Finding measure_tube(const FieldView& field, const RimOutline<S>& outline,
   result.information_uv = shift->uv;
   result.information_vv = shift->vv;
   result.edges = rim.count();
-  result.contrast = contrast / found;
   result.contrast_q4 = 16 * contrast / found;
   result.rms_px = convert<Px<S>>(square_root(rim.mean_square()));
   result.growth_px = convert<Px<S>>(shift->growth);

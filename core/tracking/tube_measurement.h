@@ -31,8 +31,7 @@ struct TubeMeasurement {
   Mm<S> information_uv{};
   Mm<S> information_vv{};
   std::int32_t edges = 0;        ///< rim points used, of kRimPoints
-  std::int32_t contrast = 0;     ///< mean grey levels from dark to bright
-  std::int32_t contrast_q4 = 0;  ///< the same in 1/16
+  std::int32_t contrast_q4 = 0;  ///< mean from dark to bright, 1/16 grey level
   Px<S> rms_px{};                ///< of the rim points' distances along their searches
   Px<S> growth_px{};             ///< rim radius beyond the predicted one, per 32 px
   bool used = true;              ///< kept in the pose fit
