@@ -35,7 +35,7 @@ MAY_INCLUDE = {
     "core/kinematics": BASE + MATH,
     "core/detection": BASE + MATH + ["core/picture", "core/pose"],
     "core/calibration": POSE + ["core/pose", "core/detection", "core/kinematics"],
-    "core/lighting": BASE + ["core/edges"],
+    "core/lighting": BASE,
     "core/verification": BASE + MATH + ["core/tubesheet", "core/tracking", "core/pose"],
     "core/overlay": BASE + ["core/camera", "core/tubesheet"],
     "core/rendering": BASE + MATH + ["core/camera", "core/tubesheet", "core/kinematics"],
