@@ -14,6 +14,7 @@
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
+#include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
 namespace {
@@ -49,9 +50,10 @@ double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
   return i == k ? 1.0 : scale > 0.0 ? covariance(i, k) / scale : 0.0;
 }
 
-void write_quality(drivers::TomlWriter& toml, const CalibrationQualityText& quality) {
+std::string with_quality(const std::string& calibrated, const CalibrationQualityText& quality) {
+  drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   toml.table(quality.table);
-  toml.text("id", digest_of(quality.subject));
+  toml.text("id", digest_of(calibrated));
   toml.text("made_at", now_in_words());
   std::array<double, 6> sigma{};
   std::string correlation = "[";
@@ -67,6 +69,7 @@ void write_quality(drivers::TomlWriter& toml, const CalibrationQualityText& qual
   toml.numbers("sigma", sigma);
   toml.raw("correlation", correlation + "]");
   toml.text("verdict", quality.verdict);
+  return calibrated + "\n" + toml.take();
 }
 
 bool write_settings(const std::string& path, const std::string& text) {

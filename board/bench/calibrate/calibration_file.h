@@ -4,20 +4,20 @@
 #include <string_view>
 
 #include "core/math/small_matrix.h"
-#include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
 
 /// What a calibration says of itself beside its table.
 struct CalibrationQualityText {
-  std::string_view table;    ///< "camera_quality" or "tool_quality"
-  std::string_view subject;  ///< the calibrated table's text, whose digest is the id
+  std::string_view table;  ///< "camera_quality" or "tool_quality"
   core::math::Matrix6d covariance;
   std::string_view verdict;
 };
 
-/// Writes the table: id, made_at (now), sigma, correlation, verdict.
-void write_quality(drivers::TomlWriter& toml, const CalibrationQualityText& quality);
+/// The text of a calibrated table with that of its quality behind it: id, which is the table's
+/// digest, made_at (now), sigma, correlation, verdict.
+[[nodiscard]] std::string with_quality(const std::string& calibrated,
+                                       const CalibrationQualityText& quality);
 
 /// Puts a settings file in its place; what stood there is kept as `path.bak`. False, and why on
 /// standard error, when it does not get there.

@@ -151,13 +151,10 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
 
 std::string camera_settings_text(const core::CameraSettings& camera,
                                  const CalibrationOutcome& outcome) {
-  drivers::TomlWriter subject(drivers::TomlManner::kPlain);
-  drivers::write_camera(subject, camera);
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   drivers::write_camera(toml, camera);
-  write_quality(toml, {"camera_quality", subject.take(), outcome.fit.camera_covariance,
-                       use_of(outcome.verdict)});
-  return toml.take();
+  return with_quality(toml.take(),
+                      {"camera_quality", outcome.fit.camera_covariance, use_of(outcome.verdict)});
 }
 
 }  // namespace tubesight::board

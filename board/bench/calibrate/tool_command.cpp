@@ -21,6 +21,7 @@
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_settings.h"
 #include "drivers/settings/session_text.h"
+#include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
 namespace {
@@ -229,9 +230,12 @@ class ToolRun {
     const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, tool_.covariance(i, i))); };
     const auto& v = tool_.values;
     drivers::print(text_, "  tip in the camera     x %.4f  y %.4f  z %.4f mm\n", v(0), v(1), v(2));
-    drivers::print(text_, "    one sigma             %.4f    %.4f    %.4f mm%s\n", sigma(0),
-                   sigma(1), sigma(2),
-                   assumption_.clearance_mm > 0.0 ? ", with 0.15 mm of clearance in the tube" : "");
+    drivers::print(text_, "    one sigma             %.4f    %.4f    %.4f mm", sigma(0), sigma(1),
+                   sigma(2));
+    if (assumption_.clearance_mm > 0.0) {
+      drivers::print(text_, ", with %.2f mm of clearance in the tube", assumption_.clearance_mm);
+    }
+    text_ += '\n';
     drivers::print(text_, "  axis                  alpha %.4f  beta %.4f  gamma %.4f deg\n", v(3),
                    v(4), v(5));
     drivers::print(text_, "    one sigma             %.4f       %.4f       %.4f deg\n", sigma(3),
@@ -294,8 +298,6 @@ class ToolRun {
       tool.position_mm[static_cast<std::size_t>(i)] = tool_.values(i);
       tool.rotation_deg[static_cast<std::size_t>(i)] = tool_.values(i + 3);
     }
-    drivers::TomlWriter subject(drivers::TomlManner::kPlain);
-    drivers::write_tool(subject, tool);
     drivers::TomlWriter toml(drivers::TomlManner::kPlain);
     drivers::write_tool(toml, tool);
     std::string verdict;
@@ -303,8 +305,7 @@ class ToolRun {
                    dockings_.size() == 1 ? "docking" : "dockings",
                    assumption_.clearance_mm > 0.0 ? "with clearance" : "offset given",
                    options_.heading_deg);
-    write_quality(toml, {"tool_quality", subject.take(), tool_.covariance, verdict});
-    return toml.take();
+    return with_quality(toml.take(), {"tool_quality", tool_.covariance, verdict});
   }
 
   const CalibrateToolOptions& options_;
