@@ -3,40 +3,27 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/support/temporary_folder.h"
-#include "tests/system/program.h"
+#include "tests/support/replaced_text.h"
+#include "tests/system/pose_stills.h"
 
 namespace tubesight::tests {
 namespace {
 
-using support::TemporaryFolder;
+using support::replaced;
 
 constexpr std::array kTrue{-3.074, 31.629, 112.789, -0.0639, -0.8174, 47.9947};
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void replace(std::string& text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << from;
-  text.replace(at, from.size(), to);
-}
 
 /// Draws the tool of the shipped example at rest on tube (40, 60) as `path` says, the first frame
 /// into NAME.pgm; the clicks are in NAME.session.toml.
 void draw_docked(const TemporaryFolder& folder, const std::string& name, const std::string& path) {
-  std::string text = text_of(TUBESIGHT_SOURCE_DIR "/docs/examples/steam-generator.toml");
+  std::string text = replaced(text_of(TUBESIGHT_SOURCE_DIR "/docs/examples/steam-generator.toml"),
+                              "window_px = [40, 36, 595, 330]", "window_px = [8, 8, 627, 472]");
   text.erase(text.find("[path]"));
-  replace(text, "window_px = [40, 36, 595, 330]", "window_px = [8, 8, 627, 472]");
   folder.write(name + ".toml", text + "[video]\nlength_s = 0.04\n[path]\ntube = [40, 60]\n" + path +
                                    "\n[[step]]\nrest_s = 1\n");
   const ProgramRun run = run_tubesight(folder, {"simulate", name + ".toml", "--out", name});

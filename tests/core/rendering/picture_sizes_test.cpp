@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/session/session.h"
+#include "tests/core/rendering/center_errors.h"
 #include "tests/support/drawn_sheet.h"
 #include "tests/support/events.h"
 
@@ -108,11 +109,7 @@ class PictureSizes : public ::testing::TestWithParam<Size> {
     Exposure exposure;
     exposure.opened = pose(t - 0.5 * kShutter_s);
     exposure.closed = pose(t + 0.5 * kShutter_s);
-    exposure.parity = Parity::kProgressive;
-    if (GetParam().scan != Scan::kProgressive) {
-      const bool odd = (field % 2 == 1) == (GetParam().scan == Scan::kEvenFirst);
-      exposure.parity = odd ? Parity::kOdd : Parity::kEven;
-    }
+    exposure.parity = parity_of(GetParam().scan, field % 2 == 1);
     exposure.noise_seed = static_cast<std::uint64_t>(field);
     const auto& window = settings_->start.window_px;
     const auto margin = static_cast<std::int32_t>(24 * columns_);
@@ -143,19 +140,9 @@ class PictureSizes : public ::testing::TestWithParam<Size> {
       const double off = s.displacement_um_q8[i] / 256e3 - (axis->axis_mm[i] - center[i]);
       offset2_ += off * off;
     }
-    for (const auto& tube : output_.tubes) {
-      const auto at = sheet_.truth().image_of(
-          T_sheet_tool, sheet_.truth().tube_ends().at(tube.address).center_mm);
-      if (tube.quality_permyriad > 0 && !tube.plug && at) {
-        const double du = tube.center_px.u_q16 / 65536.0 - (*at)[0];
-        const double dv = tube.center_px.v_q16 / 65536.0 - (*at)[1];
-        center2_ += du * du + dv * dv;
-        ++centers_;
-      }
-    }
+    centers_.add(sheet_.truth(), T_sheet_tool, output_.tubes);
   }
 
-  [[nodiscard]] double center_rms_px() const { return std::sqrt(center2_ / centers_); }
   [[nodiscard]] double offset_rms_mm() const { return std::sqrt(offset2_ / fields_); }
 
   DrawnSheet sheet_;
@@ -169,8 +156,7 @@ class PictureSizes : public ::testing::TestWithParam<Size> {
   int fields_ = 0;
   int aligned_ = 0;
   int truly_aligned_ = 0;
-  int centers_ = 0;
-  double center2_ = 0.0;
+  CenterErrors centers_;
   double offset2_ = 0.0;
 };
 
@@ -178,11 +164,11 @@ TEST_P(PictureSizes, AreTrackedRightlyThroughAMove) {
   run();
 
   EXPECT_NEAR(aligned_, truly_aligned_, 2);
-  ASSERT_GT(centers_, 20 * fields_);
+  ASSERT_GT(centers_.count(), 20 * fields_);
   // A pixel of the smallest picture is 0.35 mm. Larger ones are no worse in pixels.
-  EXPECT_LT(center_rms_px(), 0.14);
+  EXPECT_LT(centers_.rms_px(), 0.14);
   EXPECT_LT(offset_rms_mm(), GetParam().width_px < 640 ? 0.1 : 0.02);
-  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * center_rms_px()));
+  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * centers_.rms_px()));
   RecordProperty("offset_rms_um", static_cast<int>(1000.0 * offset_rms_mm()));
 }
 

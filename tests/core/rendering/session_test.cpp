@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/rendering/center_errors.h"
 #include "tests/support/drawn_sheet.h"
 #include "tests/support/events.h"
 
@@ -93,19 +94,8 @@ class DrawnSession : public ::testing::Test {
     if (s.aligned) {
       EXPECT_EQ(s.tool, axis->nearest.address) << field;
     }
-    for (const auto& tube : output_.tubes) {
-      const auto at = sheet_.truth().image_of(
-          T_sheet_tool, sheet_.truth().tube_ends().at(tube.address).center_mm);
-      if (tube.quality_permyriad > 0 && !tube.plug && at) {
-        const double du = tube.center_px.u_q16 / 65536.0 - (*at)[0];
-        const double dv = tube.center_px.v_q16 / 65536.0 - (*at)[1];
-        sum2_ += du * du + dv * dv;
-        ++centers_;
-      }
-    }
+    centers_.add(sheet_.truth(), T_sheet_tool, output_.tubes);
   }
-
-  double center_rms_px() const { return std::sqrt(sum2_ / std::max(centers_, 1)); }
 
   DrawnSheet sheet_;
   std::unique_ptr<SessionSettings> settings_ = std::make_unique<SessionSettings>();
@@ -116,8 +106,7 @@ class DrawnSession : public ::testing::Test {
   std::array<double, 2> from_mm_{60 * 25.4 + 0.4, 40 * 25.4 - 0.3};
   std::array<double, 2> by_mm_{3 * 25.4, 25.4};
   double move_s_ = 0.9;
-  double sum2_ = 0.0;
-  int centers_ = 0;
+  CenterErrors centers_;
   int fields_ = 0;
   int tracking_ = 0;
   int aligned_ = 0;
@@ -127,11 +116,11 @@ TEST_F(DrawnSession, FollowsAMoveOnASquarePitch) {
   run(80);
 
   EXPECT_EQ(tracking_, 80);
-  EXPECT_GT(centers_, 80 * 8);
-  EXPECT_LT(center_rms_px(), 0.2);
+  EXPECT_GT(centers_.count(), 80 * 8);
+  EXPECT_LT(centers_.rms_px(), 0.2);
   EXPECT_GE(aligned_, 14);
   EXPECT_EQ(output_.sighting.tool, (TubeAddress{41, 63}));
-  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * center_rms_px()));
+  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * centers_.rms_px()));
 }
 
 TEST_F(DrawnSession, FollowsAMoveOnATriangularPitchWithPlugs) {
@@ -147,9 +136,9 @@ TEST_F(DrawnSession, FollowsAMoveOnATriangularPitchWithPlugs) {
   run(80);
 
   EXPECT_EQ(tracking_, 80);
-  EXPECT_LT(center_rms_px(), 0.2);
+  EXPECT_LT(centers_.rms_px(), 0.2);
   EXPECT_EQ(output_.sighting.tool, (TubeAddress{41, 63}));
-  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * center_rms_px()));
+  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * centers_.rms_px()));
 }
 
 TEST_F(DrawnSession, FollowsAMoveBetweenFilletWelds) {
@@ -164,9 +153,9 @@ TEST_F(DrawnSession, FollowsAMoveBetweenFilletWelds) {
   run(80);
 
   EXPECT_EQ(tracking_, 80);
-  EXPECT_LT(center_rms_px(), 0.2);
+  EXPECT_LT(centers_.rms_px(), 0.2);
   EXPECT_EQ(output_.sighting.tool, (TubeAddress{41, 62}));
-  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * center_rms_px()));
+  RecordProperty("center_rms_millipx", static_cast<int>(1000.0 * centers_.rms_px()));
 }
 
 }  // namespace

@@ -71,11 +71,6 @@ struct FakeGigeCamera {
   bool stopped = false;  ///< at the end of its last stream
 };
 
-/// The grey value that a fake camera draws: lines and columns can be told apart.
-[[nodiscard]] constexpr std::uint8_t drawn_grey(std::int32_t u, std::int32_t v) {
-  return static_cast<std::uint8_t>(40 + (u + 7 * v) % 160);
-}
-
 /// Lays a line of grey bytes into memory as a format wants it, with noise in the bits that 8 do not
 /// hold. Written anew, from the figures of the GigE Vision and the GenICam standards.
 void lay_line(const std::string& format, std::span<const std::uint8_t> greys, std::byte* to);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/spsc_queue.h"
+#include "tests/support/drawn_grey.h"
 
 namespace tubesight::tests {
 

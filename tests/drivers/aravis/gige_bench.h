@@ -1,11 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <memory>
-#include <string>
 
 #include "drivers/aravis/aravis_frame_grabber.h"
 #include "tests/drivers/aravis/fake_library.h"
+#include "tests/support/grabber_bench.h"
 
 namespace tubesight::tests {
 
@@ -20,51 +19,19 @@ inline drivers::AravisSettings gige_settings(core::Scan scan = core::Scan::kProg
 }
 
 /// A grabber on a fake library with one camera, at 30 pictures a second.
-class GigeBench {
+class GigeBench : public GrabberBench<drivers::AravisFrameGrabber, FakeLibrary> {
  public:
   explicit GigeBench(const drivers::AravisSettings& settings = gige_settings())
-      : grabber_(settings, library_, library_) {}
+      : GrabberBench(settings) {}
 
-  drivers::AravisFrameGrabber& grabber() { return grabber_; }
-  FakeLibrary& library() { return library_; }
+  FakeLibrary& library() { return fake(); }
   FakeGigeCamera& camera() { return *camera_; }
 
-  core::Result<hal::FieldLease> grab(int timeout_ms = 100) {
-    return grabber_.grab_for(std::chrono::milliseconds(timeout_ms));
-  }
-  /// The status of the next field; missing: none came.
-  core::FieldStatus next_status() {
-    const auto lease = grab();
-    return lease ? lease->field().status : core::FieldStatus::kMissing;
-  }
-  /// Takes fields until one is good; false: none of so many is.
-  bool good_within(int fields) {
-    for (int i = 0; i < fields; ++i) {
-      if (next_status() == core::FieldStatus::kGood) {
-        return true;
-      }
-    }
-    return false;
-  }
   /// Starts, and takes the fields that are not believed yet.
-  bool settle() { return grabber_.start() && good_within(8); }
-
-  /// What whoever keeps the camera does after an error.
-  core::Result<void> start_anew() {
-    grabber_.stop();
-    return grabber_.start();
-  }
-
-  [[nodiscard]] drivers::AravisReport report() const { return grabber_.report(); }
-  [[nodiscard]] drivers::AravisCounters counters() const { return grabber_.report().counters; }
-  [[nodiscard]] std::string message() const {
-    return grabber_.messages().empty() ? std::string() : grabber_.messages().front();
-  }
+  bool settle() { return grabber().start() && good_within(8); }
 
  private:
-  FakeLibrary library_;
-  std::shared_ptr<FakeGigeCamera> camera_ = library_.plug(std::make_shared<FakeGigeCamera>());
-  drivers::AravisFrameGrabber grabber_;
+  std::shared_ptr<FakeGigeCamera> camera_ = fake().plug(std::make_shared<FakeGigeCamera>());
 };
 
 }  // namespace tubesight::tests

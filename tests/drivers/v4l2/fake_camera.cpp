@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "tests/support/drawn_grey.h"
+
 namespace tubesight::tests {
 
 std::uint32_t bytes_a_pixel(std::uint32_t format) {

@@ -63,12 +63,6 @@ struct FakeCamera {
   std::deque<v4l2_event> events;  ///< pending
 };
 
-/// The grey value that a fake camera draws: lines and columns can be told apart, and neighbours are
-/// alike.
-[[nodiscard]] constexpr std::uint8_t drawn_grey(std::int32_t u, std::int32_t v) {
-  return static_cast<std::uint8_t>(40 + (u + 7 * v) % 160);
-}
-
 /// Draws what a camera of this format sees, as `told` says which lines.
 void draw_picture(const v4l2_pix_format& format, const v4l2_buffer& told,
                   std::span<std::byte> memory);
