@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/assert.h"
+#include "core/calibration/angle_slope.h"
 #include "core/math/rotation.h"
 
 namespace tubesight::core::calibration {
@@ -104,22 +105,6 @@ class TipFit {
   StaticVector<Row, kMaxDockings> rows_;
 };
 
-/// Derivatives of alpha, beta, gamma (degrees) by a rotation vector on the left.
-Eigen::Matrix3d angle_slope(const Eigen::Matrix3d& rotation) {
-  constexpr double kStep = 1e-6;
-  Eigen::Matrix3d slope;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d off = kStep * Eigen::Vector3d::Unit(i);
-    const std::array<double, 3> more = math::angles_of(math::exp_rotation(off) * rotation);
-    const std::array<double, 3> less = math::angles_of(math::exp_rotation(-off) * rotation);
-    for (int k = 0; k < 3; ++k) {
-      const double turn = more[static_cast<std::size_t>(k)] - less[static_cast<std::size_t>(k)];
-      slope(k, i) = kDegrees * std::remainder(turn, 2.0 * std::numbers::pi) / (2.0 * kStep);
-    }
-  }
-  return slope;
-}
-
 }  // namespace
 
 ToolCalibration calibrate_tool(const DockingList& dockings, const DockingAssumption& assumption) {
@@ -168,7 +153,7 @@ ToolCalibration calibrate_tool(const DockingList& dockings, const DockingAssumpt
   const std::array<double, 3> angles = math::angles_of(rotation);
   result.values << tip, kDegrees * angles[0], kDegrees * angles[1], kDegrees * angles[2];
   math::Matrix6d slope = math::Matrix6d::Identity();
-  slope.bottomRightCorner<3, 3>() = angle_slope(rotation);
+  slope.bottomRightCorner<3, 3>() = angle_slope_deg(rotation);
   result.covariance = slope * covariance * slope.transpose();
   return result;
 }
