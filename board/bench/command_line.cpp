@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/calibrate/base_command.h"
 #include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/tool_command.h"
 #include "board/bench/campaign/campaign_command.h"
@@ -164,17 +165,42 @@ struct CalibrateArguments {
   std::string file;
   std::string out;
   CalibrateToolOptions tool;
+  CalibrateBaseOptions base;
 };
+
+void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
+  calibrate.add_flag("--level", base.level,
+                     "Of a base: its z axis is square to the sheet, as the robot was installed");
+  calibrate.add_flag("--tool-known", base.tool_known,
+                     "Of a base: the robot's tool has its x axis where vision's has it");
+  calibrate
+      .add_option("--sheet", base.sheet,
+                  "Of a base: a session whose tubesheet the tool must be known over; default: a "
+                  "disc of 3 m around the pairs")
+      ->option_text("SESSION.toml");
+  calibrate
+      .add_option("--touches", base.touches,
+                  "Of a base: pairs made by docking, whose base is compared")
+      ->option_text("PAIRS.csv");
+  calibrate
+      .add_option("--picture", base.picture,
+                  "Of a base: draw the sheet with the pairs and how well the tool is known")
+      ->option_text("PICTURE.png");
+}
 
 CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
   CLI::App* const calibrate = app.add_subcommand(
-      "calibrate", "The camera from views of a dot template, or the tool docked on known tubes");
-  calibrate->add_option("WHAT", arguments.what, "What is calibrated: camera or tool")
+      "calibrate",
+      "The camera from views of a dot template, the tool docked on known tubes, or the "
+      "robot's base from pairs of poses");
+  calibrate->add_option("WHAT", arguments.what, "What is calibrated: camera, tool or base")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool"}));
+      ->check(CLI::IsMember({"camera", "tool", "base"}));
   calibrate
-      ->add_option("FILE.toml", arguments.file,
-                   "camera: template and views; tool: the session, with camera and tubesheet")
+      ->add_option(
+          "FILE", arguments.file,
+          "camera: template and views (TOML); tool: the session, with camera and tubesheet "
+          "(TOML); base: poses by robot and by vision (CSV)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
@@ -217,16 +243,37 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
                    "check; default: [start]")
       ->option_text("\"R,C,U,V;...\"")
       ->needs(dock);
+  add_base_options(*calibrate, arguments.base);
   return calibrate;
 }
 
+bool is_for_base(const CalibrateBaseOptions& base) {
+  return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty() ||
+         !base.picture.empty();
+}
+
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
+  if (arguments.what != "base" && is_for_base(arguments.base)) {
+    std::fprintf(stderr,
+                 "--level, --tool-known, --sheet, --touches, --picture: of a base alone, expected "
+                 "calibrate base\n");
+    return ExitStatus::kWrongInput;
+  }
   if (arguments.what == "camera") {
     if (!arguments.tool.docks.empty()) {
       std::fprintf(stderr, "--dock: a camera is not docked, expected calibrate tool\n");
       return ExitStatus::kWrongInput;
     }
     return run_calibrate_camera({arguments.file, arguments.out});
+  }
+  if (arguments.what == "base") {
+    if (!arguments.tool.docks.empty()) {
+      std::fprintf(stderr, "--dock: a base is not docked, expected calibrate tool\n");
+      return ExitStatus::kWrongInput;
+    }
+    arguments.base.pairs = arguments.file;
+    arguments.base.out = arguments.out;
+    return run_calibrate_base(arguments.base);
   }
   arguments.tool.session = arguments.file;
   arguments.tool.out = arguments.out;

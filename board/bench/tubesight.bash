@@ -39,8 +39,8 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help"
-      taking="--out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      options="-h --help --level --tool-known"
+      taking="--sheet --touches --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
       ;;
     simulate)
       options="-h --help --window-only"
@@ -65,13 +65,13 @@ _tubesight() {
       ;;
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m && return ;;
-    pose--overlay | look--overlay) _tubesight_files .png && return ;;
+    pose--overlay | look--overlay | calibrate--picture) _tubesight_files .png && return ;;
     replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | look--csv | \
-      campaign--resume | campaign--report | campaign--merge)
+      campaign--resume | campaign--report | campaign--merge | calibrate--touches)
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
-    calibrate--out) _tubesight_files .toml && return ;;
+    calibrate--out | calibrate--sheet) _tubesight_files .toml && return ;;
     simulate--out) _tubesight_files "" && return ;;
   esac
   case " $taking " in
@@ -92,8 +92,9 @@ _tubesight() {
     esac
   done
   case $command$position in
-    calibrate0) _tubesight_words camera tool ;;
-    replay0 | pose0 | simulate0 | calibrate1) _tubesight_files .toml ;;
+    calibrate0) _tubesight_words camera tool base ;;
+    calibrate1) _tubesight_files .toml .csv ;;
+    replay0 | pose0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
     campaign*) _tubesight_files .csv ;; # more of --merge

@@ -37,6 +37,8 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
   read_table(document, "tool_quality", false,
              [&](TableReader& table) { read_quality(table, session.tool_quality); });
   read_table(document, "base", false, [&](TableReader& table) { read_base(table); });
+  read_table(document, "base_quality", false,
+             [&](TableReader& table) { read_quality(table, session.base_quality); });
 }
 
 }  // namespace
@@ -53,6 +55,7 @@ void read_session(SettingsDocument& document, NeededTables needed, SessionFile& 
   session.settings.verification = {};
   session.camera_quality = {};
   session.tool_quality = {};
+  session.base_quality = {};
   read_all(document, needed, session);
   session.has_tool = document.find("tool") != nullptr;
   session.has_start = document.find("start") != nullptr;

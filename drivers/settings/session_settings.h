@@ -35,12 +35,13 @@ struct SessionFile {
   bool has_start = false;  ///< without it the window is the whole picture
   CalibrationQuality camera_quality;
   CalibrationQuality tool_quality;
+  CalibrationQuality base_quality;
 };
 
 /// The tables of a session.
-inline constexpr std::array<std::string_view, 10> kSessionTables = {
-    "camera", "camera_quality", "tool",  "tool_quality", "tubesheet",
-    "start",  "motion",         "edges", "verification", "base"};
+inline constexpr std::array<std::string_view, 11> kSessionTables = {
+    "camera", "camera_quality", "tool",         "tool_quality", "tubesheet",   "start",
+    "motion", "edges",          "verification", "base",         "base_quality"};
 
 /// Reads the session's tables of a document that may have others, too; mistakes go to its problems.
 /// Everything in `session` is replaced.

@@ -36,7 +36,8 @@ void read_motion(TableReader& table, core::MotionSettings& motion);
 void read_edges(TableReader& table, core::EdgeSettings& edges);
 void read_verification(TableReader& table, core::VerificationSettings& verification);
 
-/// What a calibration says of itself: `[camera_quality]` or `[tool_quality]`.
+/// What a calibration says of itself: `[camera_quality]`, `[tool_quality]` or
+/// `[base_quality]`.
 struct CalibrationQuality {
   std::string id;          ///< empty when there is no table
   std::string serial;      ///< of the camera that was calibrated; empty: it is not said
@@ -48,8 +49,8 @@ struct CalibrationQuality {
   std::array<double, 36> correlation{};
 };
 
-/// `[camera_quality]`, `[tool_quality]`: `id` must be there, `serial` may be; the rest is taken
-/// where it has the form above and else left out.
+/// `[camera_quality]`, `[tool_quality]`, `[base_quality]`: `id` must be there, `serial` may be; the
+/// rest is taken where it has the form above and else left out.
 void read_quality(TableReader& table, CalibrationQuality& quality);
 
 /// `[base]`: T_sheet_base, checked only.

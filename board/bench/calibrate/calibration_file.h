@@ -9,7 +9,7 @@ namespace tubesight::board {
 
 /// What a calibration says of itself beside its table.
 struct CalibrationQualityText {
-  std::string_view table;  ///< "camera_quality" or "tool_quality"
+  std::string_view table;  ///< "camera_quality", "tool_quality" or "base_quality"
   core::math::Matrix6d covariance;
   std::string_view verdict;
 };

@@ -1,0 +1,144 @@
+#include "board/bench/calibrate/base_pairs_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "drivers/files/csv_reader.h"
+#include "drivers/files/decimal.h"
+#include "drivers/settings/text_files.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::calibration::BasePair;
+
+constexpr double kFarthest_mm = 100000.0;
+constexpr double kLargestTurn_deg = 360.0;
+constexpr double kLargestSigma_mm = 100.0;
+
+const std::vector<std::string_view> kColumns = {"name",
+                                                "robot_x_mm",
+                                                "robot_y_mm",
+                                                "robot_z_mm",
+                                                "robot_alpha_deg",
+                                                "robot_beta_deg",
+                                                "robot_gamma_deg",
+                                                "tool_x_mm",
+                                                "tool_y_mm",
+                                                "tool_z_mm",
+                                                "tool_alpha_deg",
+                                                "tool_beta_deg",
+                                                "tool_gamma_deg",
+                                                "sigma_x_mm",
+                                                "sigma_y_mm",
+                                                "sigma_z_mm",
+                                                "use"};
+constexpr std::size_t kRobot = 1;
+constexpr std::size_t kTool = 7;
+constexpr std::size_t kSigma = 13;
+constexpr std::size_t kUse = 16;
+
+/// Reads the cells of one row; the first mistake is kept.
+class RowReader {
+ public:
+  explicit RowReader(const std::vector<std::string>& cells) : cells_(cells) {}
+
+  [[nodiscard]] BasePair pair() {
+    BasePair pair;
+    const std::array<double, 3> robot = three(kRobot, kFarthest_mm, false);
+    const std::array<double, 3> tool = three(kTool, kFarthest_mm, false);
+    // Either pose without its angles makes the pair one of places.
+    pair.turned = has_angles(kRobot + 3) && has_angles(kTool + 3);
+    const std::array<double, 3> robot_deg = three(kRobot + 3, kLargestTurn_deg, true);
+    const std::array<double, 3> tool_deg = three(kTool + 3, kLargestTurn_deg, true);
+    const std::array<double, 3> sigma = three(kSigma, kLargestSigma_mm, true);
+    pair.T_base_tool = {core::rotation_from_degrees(robot_deg),
+                        Eigen::Vector3d(robot[0], robot[1], robot[2])};
+    pair.T_sheet_tool = {core::rotation_from_degrees(tool_deg),
+                         Eigen::Vector3d(tool[0], tool[1], tool[2])};
+    pair.sigma_mm << sigma[0], sigma[1], sigma[2];
+    for (std::size_t k = 0; k < sigma.size(); ++k) {
+      if (sigma[k] < 0.0) {
+        fail(kSigma + k, "expected a standard deviation, 0 or more");
+      }
+    }
+    const std::string& use = cells_[kUse];
+    if (!use.empty() && use != "0" && use != "1") {
+      fail(kUse, "expected 1, or 0 for a pair that is only compared");
+    }
+    pair.use = use != "0";
+    return pair;
+  }
+
+  [[nodiscard]] const std::string& problem() const { return problem_; }
+
+ private:
+  [[nodiscard]] bool has_angles(std::size_t at) const {
+    return !cells_[at].empty() || !cells_[at + 1].empty() || !cells_[at + 2].empty();
+  }
+
+  std::array<double, 3> three(std::size_t at, double most, bool may_be_empty) {
+    std::array<double, 3> values{};
+    if (may_be_empty && !has_angles(at)) {
+      return values;
+    }
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      constexpr std::int32_t kDigits = 9;
+      std::int64_t value = 0;
+      if (!drivers::parse_decimal(cells_[at + k], kDigits, value)) {
+        fail(at + k, "expected a number with at most 9 decimals");
+      } else if (values[k] = 1e-9 * static_cast<double>(value); std::abs(values[k]) > most) {
+        fail(at + k, "expected at most " + drivers::number_text(most));
+      }
+    }
+    return values;
+  }
+
+  void fail(std::size_t at, const std::string& why) {
+    if (problem_.empty()) {
+      problem_ = std::string(kColumns[at]) + ": " + drivers::in_quotes(cells_[at]) + ", " + why;
+    }
+  }
+
+  const std::vector<std::string>& cells_;
+  std::string problem_;
+};
+
+}  // namespace
+
+bool read_base_pairs(const std::string& path, NamedPairs& pairs,
+                     std::vector<std::string>& messages) {
+  pairs.pairs.clear();
+  pairs.names.clear();
+  drivers::DiskFiles files;
+  std::string text;
+  std::string message;
+  if (!files.read(path, text, message)) {
+    messages.push_back(path + ": " + message);
+    return false;
+  }
+  drivers::CsvReader reader(text, path);
+  if (!reader.read_header(kColumns, messages)) {
+    return false;
+  }
+  while (reader.next(messages) && messages.size() < drivers::CsvReader::kMostMessages) {
+    RowReader row(reader.cells());
+    const BasePair pair = row.pair();
+    if (!row.problem().empty()) {
+      messages.push_back(reader.place() + row.problem());
+    } else if (!pairs.pairs.try_push_back(pair)) {
+      messages.push_back(reader.place() + "more than " +
+                         std::to_string(core::calibration::kMaxPairs) +
+                         " pairs, expected at most that many");
+      return false;
+    }
+    pairs.names.push_back(drivers::printable(reader.cells()[0]));
+  }
+  return messages.empty();
+}
+
+}  // namespace tubesight::board
