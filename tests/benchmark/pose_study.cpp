@@ -11,15 +11,19 @@
 #include <string>
 #include <vector>
 
+#include "board/bench/output/line_plot.h"
 #include "core/overlay/palette.h"
 #include "core/pose/calibration_uncertainty.h"
-#include "tests/benchmark/line_plot.h"
 #include "tests/benchmark/pose_study_methods.h"
 #include "tests/benchmark/pose_study_points.h"
 #include "tests/benchmark/pose_study_scene.h"
 
 namespace tubesight::benchmark {
 namespace {
+
+using board::Panel;
+using board::Series;
+using board::write_plot;
 
 constexpr core::overlay::Rgb kLateral{200, 40, 30};
 constexpr core::overlay::Rgb kHeight{30, 90, 200};

@@ -23,11 +23,15 @@
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
+#include "board/bench/output/line_plot.h"
 #include "core/tubesheet/tubesheet_setup.h"
-#include "tests/benchmark/line_plot.h"
 
 namespace tubesight::benchmark {
 namespace {
+
+using board::Panel;
+using board::Series;
+using board::write_plot;
 
 using board::campaign::Count;
 using board::campaign::Counts;

@@ -7,7 +7,7 @@
 
 #include "core/overlay/painter.h"
 
-namespace tubesight::benchmark {
+namespace tubesight::board {
 
 /// One line of a plot.
 struct Series {
@@ -30,4 +30,4 @@ struct Panel {
 [[nodiscard]] bool write_plot(const std::string& path, const std::vector<Panel>& panels,
                               std::string& message);
 
-}  // namespace tubesight::benchmark
+}  // namespace tubesight::board

@@ -1,4 +1,4 @@
-#include "tests/benchmark/line_plot.h"
+#include "board/bench/output/line_plot.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "core/overlay/font.h"
 #include "drivers/files/png_writer.h"
 
-namespace tubesight::benchmark {
+namespace tubesight::board {
 namespace {
 
 using core::PixelBox;
@@ -191,4 +191,4 @@ bool write_plot(const std::string& path, const std::vector<Panel>& panels, std::
   return drivers::write_png(path, view, message).has_value();
 }
 
-}  // namespace tubesight::benchmark
+}  // namespace tubesight::board
