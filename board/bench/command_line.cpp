@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/budget/budget_command.h"
 #include "board/bench/calibrate/base_command.h"
 #include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/tool_command.h"
@@ -280,6 +281,31 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
   return run_calibrate_tool(arguments.tool);
 }
 
+CLI::App* add_budget(CLI::App& app, BudgetOptions& options) {
+  CLI::App* const budget = app.add_subcommand(
+      "budget",
+      "What each quantity adds to the error of the tool's position, by vision and by the robot");
+  budget
+      ->add_option("SETTINGS", options.settings,
+                   "A session with camera, tool and tubesheet, and what their calibrations say of "
+                   "themselves (TOML)")
+      ->required();
+  budget->add_option("--robots", options.robots, "Robots that are simulated; default 100")
+      ->option_text("N")
+      ->check(CLI::Range(1, 100000));
+  budget->add_option("--seed", options.seed, "Seed of their errors; default 1")
+      ->option_text("S")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{2147483647}));
+  budget
+      ->add_option("--height-mm", options.height_mm,
+                   "The sheet above the tool's tip, for vision; default 40")
+      ->option_text("H")
+      ->check(CLI::Range(0.0, 500.0));
+  budget->add_option("--plot", options.plot, "Draw the ways to calibrate a base")
+      ->option_text("PLOT.png");
+  return budget;
+}
+
 CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::App* const campaign = app.add_subcommand(
       "campaign", "Random plants, cameras, paths and faults: counts what the box says wrong");
@@ -392,6 +418,8 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   const CLI::App* const look = add_look(app, look_options);
   CalibrateArguments calibrate_arguments;
   const CLI::App* const calibrate = add_calibrate(app, calibrate_arguments);
+  BudgetOptions budget_options;
+  const CLI::App* const budget = add_budget(app, budget_options);
   CampaignOptions campaign_options;
   const CLI::App* const campaign = add_campaign(app, campaign_options);
   SimulateOptions simulate_options;
@@ -411,6 +439,9 @@ ExitStatus run_command_line(int argc, const char* const* argv) {
   }
   if (calibrate->parsed()) {
     return run_calibrate(calibrate_arguments);
+  }
+  if (budget->parsed()) {
+    return run_budget(budget_options);
   }
   if (look->parsed()) {
     return run_look(look_options);

@@ -19,7 +19,7 @@ _tubesight() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
       -*) _tubesight_words -h --help --version ;;
-      *) _tubesight_words replay pose look calibrate simulate campaign devices ;;
+      *) _tubesight_words replay pose look calibrate budget simulate campaign devices ;;
     esac
     return
   fi
@@ -41,6 +41,10 @@ _tubesight() {
     calibrate)
       options="-h --help --level --tool-known"
       taking="--sheet --touches --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      ;;
+    budget)
+      options="-h --help"
+      taking="--robots --seed --height-mm --plot"
       ;;
     simulate)
       options="-h --help --window-only"
@@ -65,7 +69,7 @@ _tubesight() {
       ;;
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m && return ;;
-    pose--overlay | look--overlay | calibrate--picture) _tubesight_files .png && return ;;
+    pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
     replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge | calibrate--touches)
       _tubesight_files .csv && return
@@ -93,8 +97,8 @@ _tubesight() {
   done
   case $command$position in
     calibrate0) _tubesight_words camera tool base ;;
-    calibrate1) _tubesight_files .toml .csv ;;
-    replay0 | pose0 | simulate0) _tubesight_files .toml ;;
+    calibrate1) [[ ${COMP_WORDS[2]} == base ]] && _tubesight_files .csv || _tubesight_files .toml ;;
+    replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
     campaign*) _tubesight_files .csv ;; # more of --merge
