@@ -30,8 +30,6 @@ namespace tubesight::benchmark {
 namespace {
 
 using board::Panel;
-using board::Series;
-using board::write_plot;
 
 using board::campaign::Count;
 using board::campaign::Counts;
@@ -307,7 +305,7 @@ Panel sweep_accelerations(Sweep& sweep) {
   Panel panel{"0.5 ms of exposure", "acceleration, m/s2", "fastest followed, mm/s", {}};
   for (std::size_t s = 0; s < sweep.sheets().size(); ++s) {
     const Sheet& sheet = sweep.sheets()[s];
-    Series series{sheet.name, kColours.at(s), {}};
+    board::Series series{sheet.name, kColours.at(s), {}};
     print_head(sweep, sheet.name);
     for (const double acceleration : kAccelerations_mm_s2) {
       const double fastest =
@@ -326,7 +324,7 @@ Panel sweep_exposures(Sweep& sweep, const Panel& shortest) {
   Panel panel{"12 m/s2", "exposure, ms", "fastest followed, mm/s", {}};
   for (std::size_t s = 0; s < sweep.sheets().size(); ++s) {
     const Sheet& sheet = sweep.sheets()[s];
-    Series series{sheet.name, kColours.at(s), {}};
+    board::Series series{sheet.name, kColours.at(s), {}};
     for (const auto& point : shortest.series.at(s).points) {
       if (point[0] * 1000.0 == kStrong_mm_s2) {
         series.points.push_back({kExposure_s * 1000.0, point[1]});
@@ -368,7 +366,7 @@ int run(int moves, std::size_t sheets, const std::string& plot) {
   sweep_beyond_limits(sweep);
   std::printf("\n%lld fields%s\n", sweep.fields(), sweep.ok() ? "" : "; NOT as it has to be");
   std::string message;
-  if (!plot.empty() && !write_plot(plot, panels, message)) {
+  if (!plot.empty() && !board::write_plot(plot, panels, message)) {
     std::fprintf(stderr, "%s\n", message.c_str());
     return 1;
   }

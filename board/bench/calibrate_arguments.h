@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "board/bench/calibrate/base_command.h"
+#include "board/bench/calibrate/tool_command.h"
+#include "board/bench/output/exit_status.h"
+
+namespace CLI {
+class App;
+}
+
+namespace tubesight::board {
+
+/// The arguments of `calibrate`, some of which belong to one thing alone.
+struct CalibrateArguments {
+  std::string what;
+  std::string file;
+  std::string out;
+  CalibrateToolOptions tool;
+  CalibrateBaseOptions base;
+};
+
+/// Adds `calibrate` with all its options, which are read into `arguments`.
+CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments);
+
+/// Runs the calibration asked for; options of another one are refused.
+[[nodiscard]] ExitStatus run_calibrate(CalibrateArguments& arguments);
+
+}  // namespace tubesight::board
