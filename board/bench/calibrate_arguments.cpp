@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/zones_command.h"
 
 namespace tubesight::board {
 namespace {
@@ -24,8 +25,9 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
                   "Of a base: pairs made by docking, whose base is compared")
       ->option_text("PAIRS.csv");
   calibrate
-      .add_option("--picture", base.picture,
-                  "Of a base: draw the sheet with the pairs and how well the tool is known")
+      .add_option(
+          "--picture", base.picture,
+          "Of a base, or of zones: draw the sheet with the pairs and how well the tool is known")
       ->option_text("PICTURE.png");
 }
 
@@ -81,14 +83,16 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "calibrate",
       "The camera from views of a dot template, the tool docked on known tubes, or the "
       "robot's base from pairs of poses");
-  calibrate->add_option("WHAT", arguments.what, "What is calibrated: camera, tool or base")
+  calibrate
+      ->add_option("WHAT", arguments.what,
+                   "What is calibrated: camera, tool or base, or a base's zones")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base"}));
+      ->check(CLI::IsMember({"camera", "tool", "base", "zones"}));
   calibrate
       ->add_option(
           "FILE", arguments.file,
           "camera: template and views (TOML); tool: the session, with camera and tubesheet "
-          "(TOML); base: poses by robot and by vision (CSV)")
+          "(TOML); base and zones: poses by robot and by vision (CSV)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
@@ -96,10 +100,22 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->option_text("OUT.toml");
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
+  calibrate
+      ->add_option("--base", arguments.of_base,
+                   "Of zones: a settings file with the [base] that they correct")
+      ->option_text("BASE.toml");
   return calibrate;
 }
 
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
+  if (arguments.what != "zones" && !arguments.of_base.empty()) {
+    std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
+    return ExitStatus::kWrongInput;
+  }
+  if (arguments.what == "zones") {
+    return run_calibrate_zones(
+        {arguments.file, arguments.of_base, arguments.base.picture, arguments.out});
+  }
   if (arguments.what != "base" && is_for_base(arguments.base)) {
     std::fprintf(stderr,
                  "--level, --tool-known, --sheet, --touches, --picture: of a base alone, expected "

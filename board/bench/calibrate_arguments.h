@@ -19,6 +19,7 @@ struct CalibrateArguments {
   std::string out;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
+  std::string of_base;  ///< the settings that zones correct
 };
 
 /// Adds `calibrate` with all its options, which are read into `arguments`.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,9 +15,6 @@ namespace tubesight::drivers {
 namespace {
 
 using core::TubeAddress;
-
-constexpr NumberRange kAnyNumber{std::numeric_limits<double>::lowest(),
-                                 std::numeric_limits<double>::max(), ""};
 
 /// Takes a list over when it holds just as many finite numbers.
 bool take_numbers(const toml::array* list, std::span<double> values) {
@@ -262,12 +258,6 @@ void read_quality(TableReader& table, CalibrationQuality& quality) {
   if (table.has("correlation")) {
     take_matrix(table.list("correlation", false, "a list of lists"), quality.correlation);
   }
-}
-
-void read_base(TableReader& table) {
-  std::array<double, 3> values{};
-  table.numbers("position_mm", kAnyNumber, values);
-  table.numbers("rotation_deg", kAngle, values);
 }
 
 }  // namespace tubesight::drivers
