@@ -24,6 +24,7 @@ constexpr double kMostTurn_rad = 0.03;
 // The scatter of a rotation against a base of three pairs' places: 0.5 mm in 100 mm.
 constexpr double kTurnGate_rad = 5e-3;
 constexpr double kMostScale = 0.02;
+constexpr double kSameDistance_mm = 5.0;
 // Chi-square of three: one in 10^5 beyond. Of few misses the scatter itself is uncertain.
 constexpr double kMiss2 = 26.0;
 constexpr double kMissOfFew = 8.0;
@@ -83,9 +84,10 @@ double scale_of(const BasePairs& pairs, std::span<const std::int32_t> chosen) {
     const BasePair& a = pairs[chosen[k]];
     const BasePair& b = pairs[chosen[(k + (chosen.size() + 1) / 2) % chosen.size()]];
     const double base = (a.T_base_tool.translation_mm() - b.T_base_tool.translation_mm()).norm();
+    const double sheet = (a.T_sheet_tool.translation_mm() - b.T_sheet_tool.translation_mm()).norm();
     if (base > 0.0) {
-      ratios[count++] =
-          (a.T_sheet_tool.translation_mm() - b.T_sheet_tool.translation_mm()).norm() / base;
+      // Near places are apart by an uncertain multiple.
+      ratios[count++] = std::abs(sheet - base) < kSameDistance_mm ? 1.0 : sheet / base;
     }
   }
   if (count == 0) {
@@ -313,6 +315,7 @@ class Calibrator {
 
   void tell(std::span<const Eigen::Vector2d> places) {
     const BaseFit& fit = result_.fit;
+    result_.good = good_;
     result_.used = good_.size();
     result_.outliers = all_.size() - good_.size();
     double height = 0.0;

@@ -48,6 +48,7 @@ struct BaseCalibration {
   BaseRefusal refusal = BaseRefusal::kNone;
   BaseVerdict verdict = BaseVerdict::kZones;
   BaseFit fit;
+  StaticVector<std::int32_t, kMaxPairs> good;  ///< pairs used, in an order of their own
   std::int32_t used = 0;
   std::int32_t outliers = 0;
   double worst_mm = 0.0;  ///< where pairs contradict: how far

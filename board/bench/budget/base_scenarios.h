@@ -14,6 +14,7 @@ struct BaseMethod {
   bool vision = false;      ///< else docking: places alone, and the sheet pushes back
   double sigma_mm = 0.0;    ///< one sigma an axis, of a place by vision or of a touch
   std::int32_t places = 3;  ///< 3 to 8
+  std::int32_t zones = 0;   ///< places all over the generator where vision corrects the base
 };
 
 /// The four of the source: its vision is right to 0.25 mm across, which is two axes; touches are
@@ -35,6 +36,9 @@ struct RadiusErrors {
 /// One method tried on many robots.
 struct ScenarioResult {
   std::array<RadiusErrors, kScenarioRadii_mm.size()> radii{};
+  /// Of the error across, root mean square over all, as many times what the calibration promises:
+  /// its base's uncertainty there and the robot's scatter. Corrections by zones are not promised.
+  double of_promised = 0.0;
   std::int32_t refused = 0;  ///< robots whose pairs made no base; they are not in the figures
 };
 

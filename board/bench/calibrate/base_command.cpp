@@ -172,6 +172,11 @@ class BaseRun {
     auto touched = std::make_unique<BaseCalibration>();
     core::calibration::calibrate_base(touches_.pairs, knowledge, places_.view(), *touched,
                                       outcomes);
+    if (touched->refusal == BaseRefusal::kNotLevel) {
+      knowledge.level = false;
+      core::calibration::calibrate_base(touches_.pairs, knowledge, places_.view(), *touched,
+                                        outcomes);
+    }
     if (touched->refusal != BaseRefusal::kNone) {
       tell(options_.touches + ": " + why_no_base(*touched, generator()));
       return false;
@@ -186,10 +191,10 @@ class BaseRun {
       worst = std::max(worst, off.head<2>().norm());
     }
     drivers::print(text,
-                   "by %d dockings, level   across %.3f mm RMS (one sigma), %.3f mm at worst; the "
+                   "by %d dockings, %s across %.3f mm RMS (one sigma), %.3f mm at worst; the "
                    "two bases differ by %.3f mm RMS, %.3f mm at worst\n",
-                   touched->used, touched->mean.across_mm, touched->worst.across_mm,
-                   std::sqrt(squares / places_.size()), worst);
+                   touched->used, knowledge.level ? "level  " : "leaning", touched->mean.across_mm,
+                   touched->worst.across_mm, std::sqrt(squares / places_.size()), worst);
     return true;
   }
 

@@ -72,9 +72,14 @@ void append_pair(std::string& text, const BaseReport& report, std::int32_t i) {
 /// One heading: an offset of the tool's tip would be in the base, and nothing would show it.
 bool has_one_heading(const BaseReport& report) {
   constexpr double kSame = 0.98;  // 11 degrees
-  for (std::int32_t i = 0; i < report.pairs.size(); ++i) {
-    const auto x = report.pairs[i].T_base_tool.rotation().col(0);
-    if (report.pairs[i].turned && x.dot(report.pairs[0].T_base_tool.rotation().col(0)) < kSame) {
+  const core::calibration::BasePair* first = nullptr;
+  for (const core::calibration::BasePair& pair : report.pairs) {
+    if (!pair.turned) {
+      continue;
+    }
+    first = first == nullptr ? &pair : first;
+    const Eigen::Vector3d x = pair.T_base_tool.rotation().col(0);
+    if (x.dot(first->T_base_tool.rotation().col(0)) < kSame) {
       return false;
     }
   }
@@ -86,9 +91,9 @@ bool has_one_heading(const BaseReport& report) {
 std::string_view use_of(BaseVerdict verdict) {
   switch (verdict) {
     case BaseVerdict::kCalibration:
-      return "base calibration: the tool within 0.5 mm (one sigma) everywhere";
+      return "base calibration: the base puts the tool within 0.5 mm (one sigma) everywhere";
     case BaseVerdict::kPositioning:
-      return "positioning: the tool within 1.25 mm (one sigma) everywhere";
+      return "positioning: the base puts the tool within 1.25 mm (one sigma) everywhere";
     case BaseVerdict::kZones: return "positioning near the pairs; more pairs elsewhere are wanted";
   }
   return "";
@@ -116,6 +121,9 @@ std::string base_text(const BaseReport& report) {
                  "along %.3f mm RMS, %.3f mm at worst\n",
                  base.mean.across_mm, base.worst.across_mm, base.worst_mm_at.x(),
                  base.worst_mm_at.y(), base.mean.along_mm, base.worst.along_mm);
+  const double scatter = base.fit.scatter.across_mm;
+  drivers::print(text, "    with the scatter      across %.3f mm RMS\n",
+                 std::sqrt(base.mean.across_mm * base.mean.across_mm + 2.0 * scatter * scatter));
   drivers::print(text,
                  "  next                  a pair at (%.0f, %.0f) would bring that to %.3f mm RMS, "
                  "%.3f mm at worst\n",

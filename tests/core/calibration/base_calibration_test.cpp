@@ -207,6 +207,8 @@ TEST(BaseCalibration, RefusesPairsThatDoNotTellTheBase) {
   const PairDraw draw;
   EXPECT_EQ(drawn({{0.0, 0.0}, {500.0, 0.0}}, draw)->run(), BaseRefusal::kTooFew);
   EXPECT_EQ(drawn({{0.0, 0.0}, {5.0, 0.0}, {0.0, 5.0}}, draw)->run(), BaseRefusal::kOnePlace);
+  EXPECT_EQ(drawn({{0.0, 0.0}, {8.0, 0.0}, {0.0, 8.0}}, noisy())->run(), BaseRefusal::kOnePlace)
+      << "whatever the noise makes of distances";
   PairDraw places = draw;
   places.turned = false;
   const std::vector<Eigen::Vector2d> line = {
