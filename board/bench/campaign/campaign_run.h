@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,6 +15,9 @@ struct CampaignLimits {
   std::int64_t moves = 0;
   std::int64_t fields = 0;
   double hours = 0.0;  ///< of this run alone
+
+  [[nodiscard]] bool reached(std::int64_t done_moves, std::int64_t done_fields,
+                             std::chrono::nanoseconds for_so_long) const;
 };
 
 /// What a campaign runs.
