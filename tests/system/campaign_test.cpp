@@ -67,6 +67,18 @@ TEST_F(CampaignProgram, RefusesWhatItWouldPassOver) {
   }
 }
 
+TEST_F(CampaignProgram, DrawsOtherPictureSizesWhichAreProgressOfTheirOwn) {
+  const ProgramRun sizes = run({"--sizes", "--moves", "1", "--resume", "sizes.csv"});
+  EXPECT_EQ(sizes.status, 0) << sizes.err;
+  EXPECT_NE(sizes.out.find("-sizes\n"), std::string::npos) << sizes.out;
+  expect_refused({"--moves", "2", "--resume", "sizes.csv"}, "-sizes");
+  expect_refused({"--sizes", "--merge", "a.csv"}, "--sizes does not go with --merge");
+  const ProgramRun written = run({"--sizes", "--replay-move", "1:0", "--out", "size.toml"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_NE(written.out.find("size.toml: shows the same\n"), std::string::npos) << written.out;
+  EXPECT_EQ(folder_.read("size.toml").find("width_px = 635"), std::string::npos);
+}
+
 TEST_F(CampaignProgram, RefusesFilesThatAreNoProgressOfThisBox) {
   expect_refused({"--merge", "missing.csv"}, "missing.csv");
   folder_.write("other.csv", "field,frame\n0,0\n");

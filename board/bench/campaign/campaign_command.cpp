@@ -62,13 +62,14 @@ class CampaignCommand {
                     options_.hours.value_or(0.0)};
     plan_.jobs = options_.jobs.value_or(1);
     plan_.run.margin_check = !options_.without_margin_check;
+    plan_.draw.sizes = options_.sizes;
     return options_.merge.empty() ? run_moves() : merge();
   }
 
  private:
   ExitStatus run_moves() {
-    progress_ =
-        Progress({campaign::box_identity(version_), campaign::configuration_name(plan_.run)});
+    progress_ = Progress(
+        {campaign::box_identity(version_), campaign::configuration_name(plan_.run, plan_.draw)});
     if (!options_.resume.empty() && std::filesystem::exists(options_.resume) && !resume()) {
       return ExitStatus::kWrongInput;
     }
@@ -197,13 +198,14 @@ struct TaskOption {
 /// The option that a merge or a single move has no use for; empty when there is none.
 std::string find_useless(const CampaignOptions& options) {
   const bool merges = !options.merge.empty();
-  const std::array<TaskOption, 6> rest = {{
+  const std::array<TaskOption, 7> rest = {{
       {"--resume", !options.resume.empty(), false},
       {"--seed", options.seed.has_value(), false},
       {"--first-move", options.first_move.has_value(), false},
       {"--jobs", options.jobs.has_value(), false},
       {"--report", !options.report.empty() && !merges, false},
       {"--without-margin-check", options.without_margin_check, true},
+      {"--sizes", options.sizes, true},
   }};
   for (const TaskOption& option : rest) {
     if (option.given && (merges || !option.for_one_move)) {

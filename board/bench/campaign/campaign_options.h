@@ -22,6 +22,7 @@ struct CampaignOptions {
   std::string out;
   bool reduce = false;
   bool without_margin_check = false;
+  bool sizes = false;  ///< pictures of other sizes and rates
 };
 
 }  // namespace tubesight::board

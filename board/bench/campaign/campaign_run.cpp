@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "board/bench/campaign/ordered_jobs.h"
-#include "board/bench/campaign/random_move.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -51,11 +50,13 @@ class Campaign {
  private:
   [[nodiscard]] OrderedJobs<Finished>::Work worker() const {
     struct Tools {
+      explicit Tools(const DrawOptions& draw) : maker(draw) {}
+
       MoveMaker maker;
       MoveRunner runner;
       drivers::Scenario scenario;
     };
-    const auto tools = std::make_shared<Tools>();
+    const auto tools = std::make_shared<Tools>(plan_.draw);
     return [this, tools](std::int64_t move) {
       const Clock::time_point from = Clock::now();
       tools->maker.make(plan_.seed, move, tools->scenario);
@@ -124,8 +125,8 @@ bool CampaignLimits::reached(std::int64_t done_moves, std::int64_t done_fields,
           std::chrono::duration<double, std::ratio<3600>>(for_so_long).count() >= hours);
 }
 
-std::string configuration_name(const RunOptions& run) {
-  return std::string(kDesign) + (run.margin_check ? "" : kSelfProof);
+std::string configuration_name(const RunOptions& run, const DrawOptions& draw) {
+  return std::string(kDesign) + (draw.sizes ? "-sizes" : "") + (run.margin_check ? "" : kSelfProof);
 }
 
 bool is_self_proof(const std::string& configuration) { return configuration.ends_with(kSelfProof); }

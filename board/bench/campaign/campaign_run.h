@@ -7,6 +7,7 @@
 
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/progress.h"
+#include "board/bench/campaign/random_move.h"
 
 namespace tubesight::board::campaign {
 
@@ -27,6 +28,7 @@ struct CampaignPlan {
   CampaignLimits limits;
   std::int32_t jobs = 1;
   RunOptions run;
+  DrawOptions draw;
 };
 
 /// A move in which the box vouched for a wrong tube.
@@ -55,7 +57,7 @@ struct CampaignWatcher {
 [[nodiscard]] std::string box_identity(const std::string& version);
 
 /// What is drawn, and how it is run.
-[[nodiscard]] std::string configuration_name(const RunOptions& run);
+[[nodiscard]] std::string configuration_name(const RunOptions& run, const DrawOptions& draw = {});
 
 /// Whether a name of configuration_name() is that of a self-proof: without the margin check.
 [[nodiscard]] bool is_self_proof(const std::string& configuration);

@@ -47,7 +47,7 @@ class OneMove {
       tell(file_.message());
       return ExitStatus::kWrongInput;
     }
-    MoveMaker().make(seed_, move_, *scenario_);
+    MoveMaker({options_.sizes}).make(seed_, move_, *scenario_);
     const std::string stratum = name_of(stratum_at(stratum_of_move(move_)));
     const MoveResult result = run(*scenario_, false);
     if (options_.reduce && result.counts[Count::kWrongTube] == 0) {
