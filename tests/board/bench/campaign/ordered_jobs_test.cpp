@@ -40,9 +40,7 @@ TEST(OrderedJobs, AddsInOrderWhateverTheirNumber) {
   EXPECT_EQ(squares(1, 40, 4), expected);
 }
 
-TEST(OrderedJobs, ThrowsAwayWhatIsBehindTheEnd) {
-  EXPECT_EQ(squares(9, 0, 3), (Added{{9, 81}}));
-}
+TEST(OrderedJobs, ThrowsAwayWhatIsBehindTheEnd) { EXPECT_EQ(squares(9, 0, 3), (Added{{9, 81}})); }
 
 }  // namespace
 }  // namespace tubesight::board::campaign
