@@ -227,6 +227,10 @@ CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
       ->add_option("--out", options.out,
                    "Where the scenario goes; with --merge: the merged progress file")
       ->option_text("FILE");
+  campaign->add_flag("--lamps", options.lamps,
+                     "In place of moves: runs of a box that rules its lamp, and what goes wrong");
+  campaign->add_flag("--sizes", options.sizes,
+                     "Pictures of 320x240 to 1920x1200, in fields and whole, 50 to 120 a second");
   campaign->add_flag("--reduce", options.reduce,
                      "With --replay-move: first leave out all that its wrong tube does not need");
   campaign->add_flag("--without-margin-check", options.without_margin_check,

@@ -51,7 +51,7 @@ _tubesight() {
       taking="--out --seed"
       ;;
     campaign)
-      options="-h --help --reduce --without-margin-check"
+      options="-h --help --lamps --sizes --reduce --without-margin-check"
       taking="--moves --fields --hours --seed --first-move --jobs --resume --report --merge"
       taking+=" --replay-move --out"
       ;;

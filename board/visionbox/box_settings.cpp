@@ -166,7 +166,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_link(table, box.link); });
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
-  drivers::read_table(document, "lamp", false, [&](TableReader& table) {
+  box.lamp_sound = drivers::read_table(document, "lamp", false, [&](TableReader& table) {
     read_lamp(table, {light_of(box.source.kind), box.link.kind != LinkKind::kNone}, box.lamp);
   });
   if (box.source.kind == SourceKind::kSimulated) {

@@ -140,6 +140,10 @@ int run_program(int argc, const char* const* argv) {
     std::fprintf(stderr, "%s\n", message.c_str());
   }
   if (!good) {
+    // A mistake elsewhere is no reason to leave a lamp lit.
+    if (dark && settings->lamp_sound) {
+      static_cast<void>(darken(*settings));
+    }
     return kWrongInput;
   }
   if (check) {

@@ -175,6 +175,28 @@ void read_time(TableReader& table, const FaultContext& context, Fault& fault) {
   }
 }
 
+/// A camera shows one picture in the place of its own, not two at a time.
+void check_picture(TableReader& table, const Fault& fault, const std::vector<Fault>& before) {
+  const auto shows_another = [](const Fault& one) {
+    return one.kind == FaultKind::kFrozen || one.kind == FaultKind::kOtherCamera;
+  };
+  const auto end_s = [](const Fault& one) {
+    return one.for_s > 0.0 ? one.at_s + one.for_s : kLongest_s;
+  };
+  if (!shows_another(fault) || !table.sound(kBegin.key) || !table.sound(kLength.key)) {
+    return;
+  }
+  for (const Fault& other : before) {
+    if (shows_another(other) && fault.at_s < end_s(other) && other.at_s < end_s(fault)) {
+      table.complain(kKindKey, std::string(drivers::name_of(fault.kind)) +
+                                   " while a fault before, " +
+                                   std::string(drivers::name_of(other.kind)) +
+                                   ", is at work, expected one after the other");
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 bool read_faults(drivers::SettingsDocument& document, const FaultContext& context,
@@ -203,6 +225,7 @@ bool read_faults(drivers::SettingsDocument& document, const FaultContext& contex
         fault.for_s <= 0.0) {
       table.complain(kLength.key, "missing or 0, expected how long it lasts");
     }
+    check_picture(table, fault, faults);
     faults.push_back(fault);
     places.push_back(
         {table.name(), table.place_of("at_s"), table.place_of("for_s"), table.place_of("steps")});

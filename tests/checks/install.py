@@ -16,7 +16,8 @@ import tempfile
 from source_text import report
 
 PROGRAMS = ["tubesight", "tubesightctl", "tubesightd"]
-WANTED = ["share/doc/tubesight/README.md", "share/doc/tubesight/LICENSE"] + [
+WANTED = ["share/doc/tubesight/README.md", "share/doc/tubesight/LICENSE",
+          "lib/systemd/system/tubesightd.service"] + [
     name for program in PROGRAMS for name in (
         f"bin/{program}", f"share/man/man1/{program}.1",
         f"share/bash-completion/completions/{program}")]
@@ -85,6 +86,7 @@ def self_test():
         planted = {"bin/tubesight": "#!/bin/sh\nexit 3\n", "share/man/man1/tubesight.1": "",
                    "share/doc/tubesight/README.md": f"see {root / 'build'}\n",
                    "share/doc/tubesight/LICENSE": "", "share/doc/tubesight/docs/a.md": "",
+                   "lib/systemd/system/tubesightd.service": "",
                    "share/more": ""}
         for name in PROGRAMS[1:]:
             planted.update({f"bin/{name}": f"#!/bin/sh\necho {name} 1\n",

@@ -67,6 +67,48 @@ TEST_F(CampaignProgram, RefusesWhatItWouldPassOver) {
   }
 }
 
+TEST_F(CampaignProgram, RefusesWhatRunsOfLampsDoNotHave) {
+  expect_refused({"--lamps"}, "expected a limit");
+  expect_refused({"--lamps", "--merge", "a.csv"}, "--lamps does not go with --merge");
+  expect_refused({"--sizes", "--merge", "a.csv"}, "--sizes does not go with --merge");
+  expect_refused({"--lamps", "--moves", "1", "--resume", "a.csv"}, "--resume does not go with");
+  expect_refused({"--lamps", "--moves", "1", "--without-margin-check"},
+                 "--without-margin-check does not go with --lamps");
+  expect_refused({"--lamps", "--replay-move", "1:3", "--out", "a.toml", "--reduce"},
+                 "--reduce does not go with --lamps");
+  expect_refused({"--lamps", "--moves", "1", "--report", "no/such/r.csv"}, "no/such/r.csv");
+}
+
+// Run 3 is of a frozen picture before a tool at rest.
+TEST_F(CampaignProgram, RunsLampsAndTellsHowLongEachFaultHadNoName) {
+  const ProgramRun lamps =
+      run({"--lamps", "--moves", "1", "--first-move", "3", "--report", "r.csv"});
+  EXPECT_EQ(lamps.status, 0) << lamps.err;
+  EXPECT_EQ(lamps.err, "") << "nothing to look at";
+  EXPECT_EQ(lamps.out.find("seed 1: runs 3 to 3 of lamps\n"), 0U) << lamps.out;
+  EXPECT_NE(lamps.out.find("wrong tube vouched for: 0 fields"), std::string::npos) << lamps.out;
+  EXPECT_NE(folder_.read("r.csv").find("\nfrozen/rests,1,"), std::string::npos);
+  EXPECT_NE(folder_.read("r.csv").find("\nall,1,"), std::string::npos);
+
+  const ProgramRun written = run({"--lamps", "--replay-move", "1:3", "--out", "lamp.toml"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_NE(written.out.find("run 1:3, frozen/rests\n"), std::string::npos) << written.out;
+  EXPECT_NE(written.out.find("  unseen after "), std::string::npos) << written.out;
+  EXPECT_NE(written.out.find("lamp.toml: shows the same\n"), std::string::npos) << written.out;
+  EXPECT_NE(folder_.read("lamp.toml").find("kind = \"frozen\""), std::string::npos);
+}
+
+TEST_F(CampaignProgram, DrawsOtherPictureSizesWhichAreProgressOfTheirOwn) {
+  const ProgramRun sizes = run({"--sizes", "--moves", "1", "--resume", "sizes.csv"});
+  EXPECT_EQ(sizes.status, 0) << sizes.err;
+  EXPECT_NE(sizes.out.find("-sizes\n"), std::string::npos) << sizes.out;
+  expect_refused({"--moves", "2", "--resume", "sizes.csv"}, "-sizes");
+  const ProgramRun written = run({"--sizes", "--replay-move", "1:0", "--out", "size.toml"});
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_NE(written.out.find("size.toml: shows the same\n"), std::string::npos) << written.out;
+  EXPECT_EQ(folder_.read("size.toml").find("width_px = 635"), std::string::npos);
+}
+
 TEST_F(CampaignProgram, RefusesFilesThatAreNoProgressOfThisBox) {
   expect_refused({"--merge", "missing.csv"}, "missing.csv");
   folder_.write("other.csv", "field,frame\n0,0\n");

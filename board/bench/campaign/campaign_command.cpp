@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "board/bench/campaign/campaign_run.h"
+#include "board/bench/campaign/lamp_campaign.h"
 #include "board/bench/campaign/one_move_command.h"
 #include "board/bench/campaign/report.h"
 #include "board/bench/output/output_paths.h"
@@ -62,13 +63,17 @@ class CampaignCommand {
                     options_.hours.value_or(0.0)};
     plan_.jobs = options_.jobs.value_or(1);
     plan_.run.margin_check = !options_.without_margin_check;
+    plan_.draw.sizes = options_.sizes;
+    if (options_.lamps) {
+      return run_lamps();
+    }
     return options_.merge.empty() ? run_moves() : merge();
   }
 
  private:
   ExitStatus run_moves() {
-    progress_ =
-        Progress({campaign::box_identity(version_), campaign::configuration_name(plan_.run)});
+    progress_ = Progress(
+        {campaign::box_identity(version_), campaign::configuration_name(plan_.run, plan_.draw)});
     if (!options_.resume.empty() && std::filesystem::exists(options_.resume) && !resume()) {
       return ExitStatus::kWrongInput;
     }
@@ -97,6 +102,41 @@ class CampaignCommand {
       return ExitStatus::kJobFailed;
     }
     return tell_results();
+  }
+
+  ExitStatus run_lamps() {
+    plan_.seed = static_cast<std::uint64_t>(options_.seed.value_or(1));
+    plan_.first_move = options_.first_move.value_or(0);
+    drivers::AtomicFile report;
+    if (!options_.report.empty() && !report.open(options_.report)) {
+      tell(report.message());
+      return ExitStatus::kWrongInput;
+    }
+    campaign::LampProgress progress;
+    campaign::LampWatcher watcher;
+    watcher.found = [this](const campaign::LampFinding& found) {
+      line_.erase();
+      tell("run " + std::to_string(plan_.seed) + ":" + std::to_string(found.run) + ", " +
+           campaign::lamp_kind_name(found.kind) + ": " + found.what);
+    };
+    watcher.done_run = [this](const campaign::LampProgress& now) {
+      line_.update(Clock::now(), now.total()[campaign::LampCount::kFields], core::FieldTime(0));
+    };
+    const std::string trouble = campaign::run_lamp_campaign(plan_, progress, watcher);
+    line_.erase();
+    if (!trouble.empty()) {
+      tell(trouble);
+      return ExitStatus::kJobFailed;
+    }
+    if (!options_.report.empty() &&
+        !write_file(options_.report, campaign::lamp_report_csv(progress))) {
+      return ExitStatus::kJobFailed;
+    }
+    const std::string box =
+        campaign::box_identity(version_) + ", " + campaign::configuration_name({}, plan_.draw);
+    const bool written = write_out(campaign::lamp_report_text(progress, box));
+    const bool wrong = progress.total()[campaign::LampCount::kWrong] > 0;
+    return written && !wrong ? ExitStatus::kDone : ExitStatus::kJobFailed;
   }
 
   bool resume() {
@@ -197,13 +237,15 @@ struct TaskOption {
 /// The option that a merge or a single move has no use for; empty when there is none.
 std::string find_useless(const CampaignOptions& options) {
   const bool merges = !options.merge.empty();
-  const std::array<TaskOption, 6> rest = {{
+  const std::array<TaskOption, 8> rest = {{
       {"--resume", !options.resume.empty(), false},
       {"--seed", options.seed.has_value(), false},
       {"--first-move", options.first_move.has_value(), false},
       {"--jobs", options.jobs.has_value(), false},
       {"--report", !options.report.empty() && !merges, false},
       {"--without-margin-check", options.without_margin_check, true},
+      {"--lamps", options.lamps, true},
+      {"--sizes", options.sizes, true},
   }};
   for (const TaskOption& option : rest) {
     if (option.given && (merges || !option.for_one_move)) {
@@ -234,6 +276,15 @@ std::string why_arguments_contradict(const CampaignOptions& options) {
   }
   if (options.reduce && options.one_move.empty()) {
     return "tubesight campaign: --reduce needs --replay-move";
+  }
+  if (options.lamps) {
+    const std::string useless = !options.resume.empty()        ? "--resume"
+                                : options.reduce               ? "--reduce"
+                                : options.without_margin_check ? "--without-margin-check"
+                                                               : "";
+    if (!useless.empty()) {
+      return "tubesight campaign: " + useless + " does not go with --lamps, expected one of them";
+    }
   }
   if (limited && !options.out.empty()) {
     return "tubesight campaign: --out goes with --replay-move or --merge";

@@ -22,6 +22,8 @@ struct CampaignOptions {
   std::string out;
   bool reduce = false;
   bool without_margin_check = false;
+  bool lamps = false;  ///< runs of lamps in place of moves
+  bool sizes = false;  ///< pictures of other sizes and rates
 };
 
 }  // namespace tubesight::board

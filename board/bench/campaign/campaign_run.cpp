@@ -4,14 +4,11 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 #include <vector>
 
-#include "board/bench/campaign/random_move.h"
+#include "board/bench/campaign/ordered_jobs.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -26,112 +23,74 @@ struct Finished {
   std::int64_t busy_ms = 0;
 };
 
-/// Hands out moves to jobs and takes their results in the order of the moves.
+/// Runs moves and adds what came of them.
 class Campaign {
  public:
   Campaign(const CampaignPlan& plan, Progress& progress, const CampaignWatcher& watcher)
       : plan_(plan),
         progress_(progress),
         watcher_(watcher),
-        next_to_run_(progress.next_move(plan.seed, plan.first_move)),
-        next_to_add_(next_to_run_),
         begun_(Clock::now()),
         fields_(progress.total()[Count::kFields]),
         moves_(progress.total()[Count::kMoves]) {}
 
   std::string run() {
-    over_ = reached_limit();
-    std::vector<std::thread> jobs;
-    for (std::int32_t i = 1; i < plan_.jobs; ++i) {
-      jobs.emplace_back([this] { work(); });
+    if (plan_.limits.reached(moves_, fields_, Clock::now() - begun_)) {
+      return {};
     }
-    work();
-    for (std::thread& job : jobs) {
-      job.join();
-    }
+    OrderedJobs<Finished>::Plan jobs;
+    jobs.first = progress_.next_move(plan_.seed, plan_.first_move);
+    jobs.next = [this](std::int64_t move) { return progress_.next_move(plan_.seed, move + 1); };
+    jobs.worker = [this] { return worker(); };
+    jobs.add = [this](std::int64_t move, const Finished& finished) { return add(move, finished); };
+    OrderedJobs<Finished>(std::move(jobs)).run(plan_.jobs);
     return trouble_;
   }
 
  private:
-  void work() {
-    MoveMaker maker;
-    MoveRunner runner;
-    const auto scenario = std::make_unique<drivers::Scenario>();
-    while (true) {
-      const std::int64_t move = take_number();
-      if (move < 0) {
-        return;
-      }
+  [[nodiscard]] OrderedJobs<Finished>::Work worker() const {
+    struct Tools {
+      explicit Tools(const DrawOptions& draw) : maker(draw) {}
+
+      MoveMaker maker;
+      MoveRunner runner;
+      drivers::Scenario scenario;
+    };
+    const auto tools = std::make_shared<Tools>(plan_.draw);
+    return [this, tools](std::int64_t move) {
       const Clock::time_point from = Clock::now();
-      maker.make(plan_.seed, move, *scenario);
+      tools->maker.make(plan_.seed, move, tools->scenario);
       Finished finished;
-      finished.result = runner.run(*scenario, plan_.run);
+      finished.result = tools->runner.run(tools->scenario, plan_.run);
       finished.busy_ms =
           std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - from).count();
-      hand_in(move, finished);
-    }
+      return finished;
+    };
   }
 
-  std::int64_t take_number() {
-    const std::lock_guard lock(mutex_);
-    if (over_) {
-      return -1;
-    }
-    const std::int64_t move = next_to_run_;
-    next_to_run_ = progress_.next_move(plan_.seed, move + 1);
-    return move;
-  }
-
-  void hand_in(std::int64_t move, const Finished& finished) {
-    const std::lock_guard lock(mutex_);
-    waiting_.emplace(move, finished);
-    // What is behind the limit is thrown away: the counts must not depend on the number of jobs.
-    for (auto first = waiting_.begin();
-         !over_ && first != waiting_.end() && first->first == next_to_add_;
-         first = waiting_.erase(first)) {
-      add(first->first, first->second);
-    }
-  }
-
-  void add(std::int64_t move, const Finished& finished) {
+  bool add(std::int64_t move, const Finished& finished) {
     if (!finished.result.runs) {
       trouble_ = "move " + std::to_string(move) + " of seed " + std::to_string(plan_.seed) +
                  ": the scenario drawn cannot be played";
-      over_ = true;
-      return;
+      return false;
     }
     const Counts& counts = finished.result.counts;
     progress_.add(plan_.seed, move, counts, finished.busy_ms);
-    next_to_add_ = progress_.next_move(plan_.seed, move + 1);
     fields_ += counts[Count::kFields];
     ++moves_;
     if (counts[Count::kWrongTube] > 0 && watcher_.found_wrong) {
       watcher_.found_wrong({plan_.seed, move, finished.result.first_wrong_field});
     }
     const bool go_on = !watcher_.done_move || watcher_.done_move(progress_);
-    over_ = !go_on || reached_limit();
-  }
-
-  [[nodiscard]] bool reached_limit() const {
-    const CampaignLimits& limits = plan_.limits;
-    const double hours =
-        std::chrono::duration<double, std::ratio<3600>>(Clock::now() - begun_).count();
-    return (limits.moves > 0 && moves_ >= limits.moves) ||
-           (limits.fields > 0 && fields_ >= limits.fields) ||
-           (limits.hours > 0.0 && hours >= limits.hours);
+    return go_on && !plan_.limits.reached(moves_, fields_, Clock::now() - begun_);
   }
 
   const CampaignPlan& plan_;
   Progress& progress_;
   const CampaignWatcher& watcher_;
-  std::mutex mutex_;
-  std::map<std::int64_t, Finished> waiting_;
-  std::int64_t next_to_run_;
-  std::int64_t next_to_add_;
   Clock::time_point begun_;
   std::int64_t fields_;
   std::int64_t moves_;
-  bool over_ = false;
   std::string trouble_;
 };
 
@@ -159,8 +118,15 @@ std::string box_identity(const std::string& version) {
   return version + "-" + text.data();
 }
 
-std::string configuration_name(const RunOptions& run) {
-  return std::string(kDesign) + (run.margin_check ? "" : kSelfProof);
+bool CampaignLimits::reached(std::int64_t done_moves, std::int64_t done_fields,
+                             std::chrono::nanoseconds for_so_long) const {
+  return (moves > 0 && done_moves >= moves) || (fields > 0 && done_fields >= fields) ||
+         (hours > 0.0 &&
+          std::chrono::duration<double, std::ratio<3600>>(for_so_long).count() >= hours);
+}
+
+std::string configuration_name(const RunOptions& run, const DrawOptions& draw) {
+  return std::string(kDesign) + (draw.sizes ? "-sizes" : "") + (run.margin_check ? "" : kSelfProof);
 }
 
 bool is_self_proof(const std::string& configuration) { return configuration.ends_with(kSelfProof); }

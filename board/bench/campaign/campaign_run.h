@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/progress.h"
+#include "board/bench/campaign/random_move.h"
 
 namespace tubesight::board::campaign {
 
@@ -14,6 +16,9 @@ struct CampaignLimits {
   std::int64_t moves = 0;
   std::int64_t fields = 0;
   double hours = 0.0;  ///< of this run alone
+
+  [[nodiscard]] bool reached(std::int64_t done_moves, std::int64_t done_fields,
+                             std::chrono::nanoseconds for_so_long) const;
 };
 
 /// What a campaign runs.
@@ -23,6 +28,7 @@ struct CampaignPlan {
   CampaignLimits limits;
   std::int32_t jobs = 1;
   RunOptions run;
+  DrawOptions draw;
 };
 
 /// A move in which the box vouched for a wrong tube.
@@ -51,7 +57,7 @@ struct CampaignWatcher {
 [[nodiscard]] std::string box_identity(const std::string& version);
 
 /// What is drawn, and how it is run.
-[[nodiscard]] std::string configuration_name(const RunOptions& run);
+[[nodiscard]] std::string configuration_name(const RunOptions& run, const DrawOptions& draw = {});
 
 /// Whether a name of configuration_name() is that of a self-proof: without the margin check.
 [[nodiscard]] bool is_self_proof(const std::string& configuration);

@@ -11,16 +11,6 @@ namespace {
 
 using core::rendering::TubeEndKind;
 
-FieldTruth truth_of(const drivers::FieldTruth& field) {
-  FieldTruth truth;
-  const core::rendering::NearestTube& nearest = field.axis.nearest;
-  truth.nearest = nearest.address;
-  truth.present = field.axis_known && nearest.kind != TubeEndKind::kVoid;
-  truth.offset_mm = nearest.offset_mm;
-  truth.slip = {field.slip[0], field.slip[1]};
-  return truth;
-}
-
 /// FNV-1a over what matters of the answers.
 class Digest {
  public:
@@ -45,6 +35,16 @@ class Digest {
 
 }  // namespace
 
+FieldTruth judged_truth(const drivers::FieldTruth& field) {
+  FieldTruth truth;
+  const core::rendering::NearestTube& nearest = field.axis.nearest;
+  truth.nearest = nearest.address;
+  truth.present = field.axis_known && nearest.kind != TubeEndKind::kVoid;
+  truth.offset_mm = nearest.offset_mm;
+  truth.slip = {field.slip[0], field.slip[1]};
+  return truth;
+}
+
 MoveResult MoveRunner::run(const drivers::Scenario& scenario, const RunOptions& options) {
   return options.margin_check
              ? play<core::tracking::MarginChecked>(scenario, options.stop_at_wrong)
@@ -66,7 +66,7 @@ MoveResult MoveRunner::play(const drivers::Scenario& scenario, bool stop_at_wron
     const core::Sighting& sighting = box->output().sighting;
     digest.add(sighting);
     const std::int64_t wrong_before = judge.first_wrong_field();
-    judge.take(truth_of(field.truth), sighting);
+    judge.take(judged_truth(field.truth), sighting);
     if (wrong_before < 0 && judge.first_wrong_field() >= 0) {
       result.first_wrong_field = field.slot;
       if (stop_at_wrong) {
@@ -82,7 +82,7 @@ MoveResult MoveRunner::play(const drivers::Scenario& scenario, bool stop_at_wron
       drivers::FieldTruth unseen = field.truth;
       unseen.axis_known = axis.has_value();
       unseen.axis = axis.value_or(core::rendering::AxisTruth{});
-      judge.take_unseen(truth_of(unseen));
+      judge.take_unseen(judged_truth(unseen));
     }
   }
   result.counts = judge.counts();

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "board/bench/campaign/lamp_run.h"
 #include "board/bench/campaign/move_reducer.h"
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/random_move.h"
@@ -35,6 +36,59 @@ void print(const Counts& counts) {
   }
 }
 
+/// Writes a scenario and reads it back: what it says must be what was run, by `shows_the_same`.
+template <typename Shows>
+ExitStatus write_scenario(drivers::AtomicFile& file, const std::string& path,
+                          const drivers::Scenario& scenario, const std::string& title,
+                          Shows shows_the_same) {
+  if (!file.write(std::string_view(drivers::scenario_text(scenario, title))) || !file.commit()) {
+    tell(file.message());
+    return ExitStatus::kJobFailed;
+  }
+  const auto read = std::make_unique<drivers::ScenarioFile>();
+  drivers::Messages messages;
+  if (!drivers::load_scenario(path, {}, *read, messages)) {
+    tell(messages);
+    return ExitStatus::kJobFailed;
+  }
+  if (!shows_the_same(read->scenario)) {
+    tell(path +
+         ": shows something else than the move, by a rounding in the last bit; "
+         "expected the same counts");
+    return ExitStatus::kJobFailed;
+  }
+  std::printf("%s: shows the same\n", path.c_str());
+  return ExitStatus::kDone;
+}
+
+/// Runs and writes one run of a lamp.
+ExitStatus run_one_lamp(const CampaignOptions& options, std::uint64_t seed, std::int64_t number) {
+  drivers::AtomicFile file;
+  if (!file.open(options.out)) {
+    tell(file.message());
+    return ExitStatus::kWrongInput;
+  }
+  const auto scenario = std::make_unique<drivers::Scenario>();
+  const LampRun run = LampRunMaker({options.sizes}).make(seed, number, *scenario);
+  LampRunner runner;
+  const LampResult result = runner.run(*scenario, run);
+  const std::string kind = lamp_kind_name(lamp_kind_of(run));
+  std::printf("run %s, %s\n", options.one_move.c_str(), kind.c_str());
+  for (std::size_t i = 0; i < kLampCounts; ++i) {
+    if (const std::int64_t value = result.counts.values.at(i); value != 0) {
+      std::printf("  %-20s %lld\n", std::string(name_of(static_cast<LampCount>(i))).c_str(),
+                  static_cast<long long>(value));
+    }
+  }
+  if (!result.named.empty()) {
+    std::printf("  %s after %.2f s\n", result.named.c_str(),
+                static_cast<double>(result.counts.named_ms_most) / 1000.0);
+  }
+  return write_scenario(
+      file, options.out, *scenario, "Campaign run " + options.one_move + " (" + kind + ")",
+      [&](const drivers::Scenario& read) { return runner.run(read, run).counts == result.counts; });
+}
+
 /// Runs, reduces and writes one move.
 class OneMove {
  public:
@@ -47,7 +101,7 @@ class OneMove {
       tell(file_.message());
       return ExitStatus::kWrongInput;
     }
-    MoveMaker().make(seed_, move_, *scenario_);
+    MoveMaker({options_.sizes}).make(seed_, move_, *scenario_);
     const std::string stratum = name_of(stratum_at(stratum_of_move(move_)));
     const MoveResult result = run(*scenario_, false);
     if (options_.reduce && result.counts[Count::kWrongTube] == 0) {
@@ -82,29 +136,13 @@ class OneMove {
     }
   }
 
-  // Reads the file back: what it says must be what was run.
   ExitStatus write(const std::string& stratum) {
     drop_idle_faults();
-    const std::string title = "Campaign move " + options_.one_move + " (" + stratum + ")";
-    if (!file_.write(std::string_view(drivers::scenario_text(*scenario_, title))) ||
-        !file_.commit()) {
-      tell(file_.message());
-      return ExitStatus::kJobFailed;
-    }
-    const auto read = std::make_unique<drivers::ScenarioFile>();
-    drivers::Messages messages;
-    if (!drivers::load_scenario(options_.out, {}, *read, messages)) {
-      tell(messages);
-      return ExitStatus::kJobFailed;
-    }
-    if (run(read->scenario, false).counts != run(*scenario_, false).counts) {
-      tell(options_.out +
-           ": shows something else than the move, by a rounding in the last bit; "
-           "expected the same counts");
-      return ExitStatus::kJobFailed;
-    }
-    std::printf("%s: shows the same\n", options_.out.c_str());
-    return ExitStatus::kDone;
+    return write_scenario(file_, options_.out, *scenario_,
+                          "Campaign move " + options_.one_move + " (" + stratum + ")",
+                          [this](const drivers::Scenario& read) {
+                            return run(read, false).counts == run(*scenario_, false).counts;
+                          });
   }
 
   const CampaignOptions& options_;
@@ -124,6 +162,9 @@ ExitStatus run_one_move(const CampaignOptions& options) {
     tell("--replay-move " + drivers::printable(options.one_move) +
          ": expected SEED:MOVE, two whole numbers from 0");
     return ExitStatus::kWrongInput;
+  }
+  if (options.lamps) {
+    return run_one_lamp(options, static_cast<std::uint64_t>(seed), move);
   }
   return OneMove(options, static_cast<std::uint64_t>(seed), move).run();
 }

@@ -14,10 +14,8 @@ using drivers::Scenario;
 /// Draws single faults of a move.
 class FaultDrawing {
  public:
-  FaultDrawing(RandomSource& random, Scenario& scenario) : random_(random), scenario_(scenario) {
-    field_s_ = static_cast<double>(scenario.video.rate_denominator) /
-               (2.0 * static_cast<double>(scenario.video.rate_numerator));
-  }
+  FaultDrawing(RandomSource& random, Scenario& scenario)
+      : random_(random), scenario_(scenario), field_s_(field_s(scenario)) {}
 
   void draw(FaultGroup group) {
     Fault fault;
@@ -112,7 +110,7 @@ class FaultDrawing {
 
   RandomSource& random_;
   Scenario& scenario_;
-  double field_s_ = 0.0;
+  double field_s_;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
+#include "board/bench/campaign/random_stream.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -29,6 +30,10 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
     draw_plant(stratum, plant, scenario);
     draw_camera(stratum, camera, scenario);
     draw_light(light, scenario);
+    if (options_.sizes) {
+      RandomSource size = random_stream(seed, move, "picture size", attempt);
+      draw_size(size, scenario);
+    }
     scenario.events.clear();
     scenario.seed = static_cast<std::uint64_t>(noise.whole(1, 2'000'000'000));
     if (!truth_->configure(scenario.scene)) {
@@ -36,6 +41,7 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
     }
     draw_path(stratum, path, truth_->tube_ends(), scenario);
     draw_faults(stratum, faults, scenario);
+    leave_out_faults_of_fields(scenario);
     if (draw_clicks(clicks, *truth_, scenario)) {
       return;
     }

@@ -30,6 +30,17 @@ void draw_plant(const Stratum& stratum, RandomSource& random, drivers::Scenario&
 /// farther away.
 void draw_camera(const Stratum& stratum, RandomSource& random, drivers::Scenario& scenario);
 
+/// Draws how many columns and lines the picture has, 320 x 240 to 1920 x 1200, whether in fields or
+/// whole, and how often, 50 to 120 fields a second: what the camera of draw_camera() sees, through
+/// the same lens.
+void draw_size(RandomSource& random, drivers::Scenario& scenario);
+
+/// A camera that delivers whole frames has no two fields to come in the other order.
+void leave_out_faults_of_fields(drivers::Scenario& scenario);
+
+/// From field to field.
+[[nodiscard]] double field_s(const drivers::Scenario& scenario);
+
 /// Draws ordinary light and an ordinary sensor.
 void draw_light(RandomSource& random, drivers::Scenario& scenario);
 

@@ -189,9 +189,8 @@ class PathDrawing {
   // Somewhere else at once, clear of every place that another tube's neighbourhood resembles: 2.5
   // times what the limits let the tool go astray in a field.
   void add_jump() {
-    const double field_s = static_cast<double>(scenario_.video.rate_denominator) /
-                           (2.0 * static_cast<double>(scenario_.video.rate_numerator));
-    const double astray = scenario_.told.motion.max_acceleration_mm_s2 * field_s * field_s;
+    const double time_s = field_s(scenario_);
+    const double astray = scenario_.told.motion.max_acceleration_mm_s2 * time_s * time_s;
     const std::array<double, 2> tube =
         ends_.lattice_point(ends_.nearest({path().end().x_mm, path().end().y_mm}).address);
     for (int tries = 0; tries < 100; ++tries) {

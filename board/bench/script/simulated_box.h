@@ -7,10 +7,12 @@
 #include "board/box/box_loop.h"
 #include "core/base/result.h"
 #include "core/base/scalar.h"
+#include "core/lighting/lamp_policy.h"
 #include "core/session/session.h"
 #include "core/tracking/margin_policy.h"
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_clock.h"
+#include "drivers/simulated/simulated_dimmer.h"
 #include "drivers/simulated/simulated_frame_grabber.h"
 #include "drivers/simulated/simulated_world.h"
 
@@ -24,9 +26,17 @@ class SimulatedBox {
  public:
   using Session = core::session::Session<core::FixedPoint, Margin>;
 
-  /// Both outlive the box.
-  SimulatedBox(drivers::SimulatedWorld& world, const drivers::Scenario& scenario)
-      : scenario_(&scenario), grabber_(world, scenario) {}
+  /// World and scenario outlive the box. With a `lamp` that lets it rule the world's lamp it does.
+  SimulatedBox(drivers::SimulatedWorld& world, const drivers::Scenario& scenario,
+               const core::lighting::LampPolicy& lamp = {})
+      : scenario_(&scenario),
+        grabber_(world, scenario),
+        dimmer_(world),
+        loop_(
+            session_,
+            BoxPorts{&grabber_, &clock_, lamp.pattern || lamp.follows_picture ? &dimmer_ : nullptr,
+                     &link_, &station_},
+            services_of(lamp)) {}
   SimulatedBox(const SimulatedBox&) = delete;
   SimulatedBox& operator=(const SimulatedBox&) = delete;
 
@@ -46,15 +56,21 @@ class SimulatedBox {
   [[nodiscard]] const core::session::Output& output() const { return loop_.output(); }
 
  private:
+  static BoxServices services_of(const core::lighting::LampPolicy& lamp) {
+    BoxServices services;
+    services.lamp = lamp;
+    return services;
+  }
+
   const drivers::Scenario* scenario_;
   drivers::SimulatedFrameGrabber grabber_;
+  drivers::SimulatedDimmer dimmer_;
   drivers::SimulatedClock clock_{grabber_};
   SimulatedScript script_{grabber_};
   ScriptedRobotLink link_{script_};
   ScriptedOperatorStation station_{script_};
   Session session_;
-  BoxLoop<core::FixedPoint, Margin> loop_{session_,
-                                          BoxPorts{&grabber_, &clock_, nullptr, &link_, &station_}};
+  BoxLoop<core::FixedPoint, Margin> loop_;
 };
 
 }  // namespace tubesight::board

@@ -288,7 +288,7 @@ for_s = 0.125
 
 [[fault]]
 kind = "other-camera"
-at_s = 0.125
+at_s = 0.25
 for_s = 0.125
 steps = [2, -4]
 

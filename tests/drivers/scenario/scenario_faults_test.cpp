@@ -86,6 +86,23 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"kind = \"torn\"\nat_s = 0\nshare = 1.5\n",
               "9: fault[0].share: 1.5, expected a number from 0 to 1"}));
 
+TEST(ScenarioFaults, OfPicturesInThePlaceOfTheCamerasOneIsShownAtATime) {
+  const std::string frozen = "[[fault]]\nkind = \"frozen\"\nat_s = 0.1\n";
+  const std::string other = "[[fault]]\nkind = \"other-camera\"\nat_s = 0.4\n";
+  const ScenarioReading both(kRestPath + frozen + other);
+  const ScenarioReading turn(kRestPath + frozen + "for_s = 0.3\n" + other);
+  const ScenarioReading again(kRestPath + other + frozen + "for_s = 0.4\n");
+
+  EXPECT_FALSE(both.good);
+  EXPECT_NE(
+      both.told().find("fault[1].kind: other-camera while a fault before, frozen, is at work, "
+                       "expected one after the other"),
+      std::string::npos)
+      << both.told();
+  EXPECT_TRUE(turn.good) << turn.told();
+  EXPECT_FALSE(again.good) << "whichever stands first";
+}
+
 TEST(ScenarioFaults, AJumpOnASheetOfEverySecondAddressIsAnEvenOne) {
   const std::string sheet =
       "[tubesheet]\nrow_step_mm = [0.0, 19.2474]\ncolumn_step_mm = [11.1125, 0.0]\n"

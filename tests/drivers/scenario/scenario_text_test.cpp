@@ -115,10 +115,13 @@ TEST(ScenarioText, TellsEveryKeyOfTheTestFromItsDefault) {
     plain += "[[step]]\n" + std::string(move) + "\n";
   }
   for (const std::string_view kind : drivers::kFaultWords) {
-    plain += "[[fault]]\nat_s = 0.5\nkind = \"" + std::string(kind) + "\"\n";
+    const bool after_another = kind == "other-camera";  // frozen, which ends
+    plain += std::string("[[fault]]\nat_s = ") + (after_another ? "1.5" : "0.5") + "\nkind = \"" +
+             std::string(kind) + "\"\n";
     const bool steps = kind == "jump" || kind == "other-camera";
     plain += kind == "lamps-dead" ? "lamps = [2]\n" : steps ? "steps = [2, 2]\n" : "";
-    plain += kind == "vibration" || kind == "lamp-drift" ? "for_s = 0.5\n" : "";
+    const bool lasts = kind == "vibration" || kind == "lamp-drift" || kind == "frozen";
+    plain += lasts ? "for_s = 0.5\n" : "";
   }
   const Reading read(plain);
   ASSERT_TRUE(read.good) << read.messages.front();
