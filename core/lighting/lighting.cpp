@@ -42,9 +42,9 @@ void Lighting::look(const Look& look) {
   } else {
     list_window_light(field.pixels, look.window, lights_);
   }
-  const std::optional<std::int32_t> change_q16 = trail_.follow(field, lights_);
-  watch_.follow(field, change_q16);
-  breakdown_.follow(field, change_q16);
+  const std::optional<LightChange> change = trail_.follow(field, lights_);
+  watch_.follow(field, change);
+  breakdown_.follow(field, change ? std::optional(change->mean_q16) : std::nullopt);
   watch_lamp(field, look.knows_place);
   if (!look.knows_place) {
     lights_.clear();  // no tube-ends
