@@ -33,7 +33,7 @@ constexpr std::int64_t kOfLag = 16;
 /// The likelihoods of two lags differ by e^4 where the one leaves over so much less, over the
 /// number of fields.
 constexpr std::int64_t kClearlyLess = 16;
-constexpr std::int64_t kFieldsOfNoise = 200;
+constexpr std::int64_t kFieldsToLearn = 200;
 /// The fewer fields, the likelier is a correlation by chance: Student's distribution has tails.
 /// Added to the deviations that are certain: 60 over the fields that tell of their own.
 constexpr std::int64_t kTail_q4 = 60 * 16;
@@ -291,12 +291,12 @@ Liveness PatternWatch::judge(const Sums& sums) {
   }
   const std::int32_t expected = expected_q10();
   const std::int32_t from_sound = (gain.q10 - expected) * 16 / gain.from_sound_q10;
-  score_q4_ = std::min(score_q4_, from_sound);
+  score_q4_ = noise_ratio_q10_ > 0 ? std::min(score_q4_, from_sound) : 0;
   if (gain.above_q4(0) >= kFromNone_q4 + gain.tail_q4 &&
       gain.above_q4(std::max(expected / 2, kLeastGain_q10)) >= kAboveLimit_q4) {
     return Liveness::kProved;
   }
-  if (from_sound <= -kFromSound_q4 && gain.q10 < expected * 5 / 8) {
+  if (noise_ratio_q10_ > 0 && from_sound <= -kFromSound_q4 && gain.q10 < expected * 5 / 8) {
     return Liveness::kFailed;
   }
   return judge_unlearnt(sums) == Liveness::kProved ? Liveness::kProved : Liveness::kUnknown;
@@ -344,21 +344,26 @@ void PatternWatch::learn(const Sums& sums) {
   if (gain.above_q4(0) < kFirstFromNone_q4) {
     return;
   }
+  // What few fields say, beside a level that is led to its place, is a beginning.
+  const bool many = gain.count >= kFieldsToLearn;
+  if (noise_ratio_q10_ > 0 && !many) {
+    return;
+  }
+  const bool goes_on = noise_ratio_q10_ > 0 && best == learnt_lag_;
   // More than 1 only where that is certain: what was proved first by chance is too much.
   const std::int32_t seen =
       std::min(std::clamp(gain.q10 - 2 * gain.from_none_q10, 1024, kMostGain_q10), gain.q10);
-  learnt_gain_q10_ = best == learnt_lag_ ? (3 * expected_q10() + seen + 2) / 4 : seen;
+  learnt_gain_q10_ = goes_on ? (3 * expected_q10() + seen + 2) / 4 : seen;
   learnt_lag_ = best;
   learnt_at_permille_ = level_permille_;
-  learn_noise(gain, sums);
+  if (many) {
+    learn_noise(gain, sums);
+  }
 }
 
 // Slowly up, so that what another picture leaves over does not pass for noise before it is found
 // out, and much more slowly down, as a tool that moves makes more of it than one at rest.
 void PatternWatch::learn_noise(const Gain& gain, const Sums& sums) {
-  if (gain.count < kFieldsOfNoise) {
-    return;
-  }
   const std::size_t span = span_of(static_cast<std::size_t>(learnt_lag_));
   const std::int64_t scatter = std::max<std::int64_t>(sums.spans[span].scatter >> 8, 1);
   const auto seen = static_cast<std::int32_t>(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -45,9 +46,16 @@ class PatternWatch {
   /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
   [[nodiscard]] Liveness liveness() const { return liveness_; }
 
+  /// How much of a change of the level is seen in the picture at this level, 1/1024: the lamp's
+  /// share in the light. Empty: it was never proved.
+  [[nodiscard]] std::optional<std::int32_t> share_q10() const {
+    return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
+  }
+
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
   /// deviations, 1/16; 0: it was not. For the study of false alarms.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
+  [[nodiscard]] std::uint32_t looks() const { return next_block_; }
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
@@ -168,7 +176,7 @@ class PatternWatch {
   std::int32_t learnt_lag_ = -1;         ///< place in kLags_us; -1: nothing was proved yet
   std::int32_t learnt_gain_q10_ = 0;     ///< of the lamp's light in the picture
   std::int32_t learnt_at_permille_ = 0;  ///< with that level
-  /// What is left over, to the scatter among tube-ends; 0: not learnt.
+  /// What is left over, to the scatter among tube-ends; 0: the gain is not learnt well yet.
   std::int32_t noise_ratio_q10_ = 0;
   Liveness liveness_ = Liveness::kUnknown;
   std::int32_t undecided_ = 0;  ///< blocks since something was certain
