@@ -30,6 +30,7 @@ void Lighting::take(const LampPolicy& policy) {
   dark_ = {};
   weak_ = {};
   breakdown_ = {};
+  fall_.begin();
 }
 
 void Lighting::look(const Look& look) {
@@ -49,6 +50,7 @@ void Lighting::look(const Look& look) {
   if (!look.knows_place) {
     lights_.clear();  // no tube-ends
   }
+  fall_.follow({&field, change, &lights_, look.still, watch_.share_q10()});
   static_cast<void>(control_.follow(field, lights_, policy_.most_permille));
 }
 
@@ -110,7 +112,7 @@ LampCondition Lighting::condition() const {
   if (watch_.liveness() == Liveness::kFailed) {
     return LampCondition::kUnseen;
   }
-  if (weak_.long_enough || breakdown_.broken()) {
+  if (weak_.long_enough || breakdown_.broken() || fall_.fallen()) {
     return LampCondition::kWeak;
   }
   return watch_.liveness() == Liveness::kProved ? LampCondition::kWell : LampCondition::kUnknown;
