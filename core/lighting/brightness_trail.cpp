@@ -1,5 +1,6 @@
 #include "core/lighting/brightness_trail.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace tubesight::core::lighting {
@@ -24,29 +25,54 @@ const TubeLight* find(const TubeLightList& lights, TubeAddress address, std::int
   return nullptr;
 }
 
+/// Over the places that two fields have in common.
+struct Sums {
+  std::int64_t before = 0;
+  std::int64_t now = 0;
+  std::int64_t squares_before = 0;
+  std::int64_t squares_now = 0;
+  std::int64_t products = 0;
+
+  void add(std::int64_t light_before, std::int64_t light_now) {
+    before += light_before;
+    now += light_now;
+    squares_before += light_before * light_before;
+    squares_now += light_now * light_now;
+    products += light_before * light_now;
+  }
+
+  // With r = now / before, sum((now_i - r before_i)^2) / now^2. Below 2^18 a sum and 2^30 of
+  // squares: 2^62 at most, as r is kept below 4.
+  [[nodiscard]] LightChange change() const {
+    const std::int64_t ratio_q14 = std::min<std::int64_t>((now << 14) / before, 4 << 14);
+    const std::int64_t led = (squares_before * ratio_q14 >> 14) - 2 * products;
+    const std::int64_t apart = std::max<std::int64_t>(squares_now + (led * ratio_q14 >> 14), 0);
+    return {static_cast<std::int32_t>((now - before) * 131'072 / (now + before)),
+            (apart << 16) / now * 65'536 / now};
+  }
+};
+
 }  // namespace
 
-std::optional<std::int32_t> BrightnessTrail::follow(const Field& field,
-                                                    const TubeLightList& lights) {
+std::optional<LightChange> BrightnessTrail::follow(const Field& field,
+                                                   const TubeLightList& lights) {
   const std::size_t lines = field.parity == Parity::kOdd ? 0 : 1;
   const TubeLightList& before = last_[lines];
   const FieldTime since = field.mid_exposure - at_[lines];
-  std::int64_t sum_before = 0;
-  std::int64_t sum_now = 0;
+  Sums sums;
   std::int32_t from = 0;
   for (const TubeLight& now : lights) {
     const TubeLight* const then = counts(now) ? find(before, now.address, from) : nullptr;
     if (then != nullptr && counts(*then)) {
-      sum_before += then->light_q4;
-      sum_now += now.light_q4;
+      sums.add(then->light_q4, now.light_q4);
     }
   }
   last_[lines] = lights;
   at_[lines] = field.mid_exposure;
-  if (sum_now == 0 || since <= FieldTime(0) || since > kLongest) {
+  if (sums.now == 0 || since <= FieldTime(0) || since > kLongest) {
     return std::nullopt;
   }
-  return static_cast<std::int32_t>((sum_now - sum_before) * 131'072 / (sum_now + sum_before));
+  return sums.change();
 }
 
 }  // namespace tubesight::core::lighting

@@ -30,6 +30,7 @@ void Lighting::take(const LampPolicy& policy) {
   dark_ = {};
   weak_ = {};
   breakdown_ = {};
+  fall_.begin();
 }
 
 void Lighting::look(const Look& look) {
@@ -42,13 +43,14 @@ void Lighting::look(const Look& look) {
   } else {
     list_window_light(field.pixels, look.window, lights_);
   }
-  const std::optional<std::int32_t> change_q16 = trail_.follow(field, lights_);
-  watch_.follow(field, change_q16);
-  breakdown_.follow(field, change_q16);
+  const std::optional<LightChange> change = trail_.follow(field, lights_);
+  watch_.follow(field, change);
+  breakdown_.follow(field, change ? std::optional(change->mean_q16) : std::nullopt);
   watch_lamp(field, look.knows_place);
   if (!look.knows_place) {
     lights_.clear();  // no tube-ends
   }
+  fall_.follow({&field, change, &lights_, look.still, watch_.share_q10()});
   static_cast<void>(control_.follow(field, lights_, policy_.most_permille));
 }
 
@@ -110,7 +112,7 @@ LampCondition Lighting::condition() const {
   if (watch_.liveness() == Liveness::kFailed) {
     return LampCondition::kUnseen;
   }
-  if (weak_.long_enough || breakdown_.broken()) {
+  if (weak_.long_enough || breakdown_.broken() || fall_.fallen()) {
     return LampCondition::kWeak;
   }
   return watch_.liveness() == Liveness::kProved ? LampCondition::kWell : LampCondition::kUnknown;

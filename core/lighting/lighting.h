@@ -11,6 +11,7 @@
 #include "core/lighting/lamp_pattern.h"
 #include "core/lighting/lamp_policy.h"
 #include "core/lighting/level_control.h"
+#include "core/lighting/light_fall.h"
 #include "core/lighting/pattern_watch.h"
 #include "core/lighting/tube_light.h"
 
@@ -34,6 +35,7 @@ class Lighting {
     std::span<const TubeSighting> tubes;  ///< measured in it
     PixelBox window;                      ///< to be looked at where none is known
     bool knows_place = false;             ///< the tube-ends' addresses can be relied on
+    bool still = false;                   ///< the tool is known to rest
   };
 
   /// Takes a field. One without pixels tells nothing.
@@ -49,8 +51,8 @@ class Lighting {
   /// The members of the state; see core/base/state_stream.h. The list is written before it is read.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [policy, pattern, control, trail, watch, lights, dark, weak, breakdown] = self;
-    stream(policy, pattern, control, trail, watch, dark, weak, breakdown);
+    auto& [policy, pattern, control, trail, watch, lights, dark, weak, breakdown, fall] = self;
+    stream(policy, pattern, control, trail, watch, dark, weak, breakdown, fall);
   }
 
  private:
@@ -100,6 +102,7 @@ class Lighting {
   Lasting dark_{};
   Lasting weak_{};
   Breakdown breakdown_{};
+  LightFall fall_{};
 };
 
 }  // namespace tubesight::core::lighting

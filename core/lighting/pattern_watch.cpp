@@ -6,12 +6,14 @@
 namespace tubesight::core::lighting {
 namespace {
 
-/// From field to field of a second difference: 67 ms of the usual 60 fields a second.
-constexpr FieldTime kSpan = std::chrono::milliseconds(60);
+/// From field to field of a second difference: 67 and 100 ms of the usual 60 fields a second.
+constexpr std::array<FieldTime, kSpans> kSpan = {std::chrono::milliseconds(60),
+                                                 std::chrono::milliseconds(93)};
 /// Both halves are of one length.
 constexpr FieldTime kUneven = std::chrono::milliseconds(8);
-/// What changes faster than this is on its way elsewhere: a soft start, a new level, another place.
+/// What changes faster than this is on its way to another place.
 constexpr std::int32_t kMostChange_q16 = 3277;  // 5 %
+constexpr std::int64_t kMostScatter_q32 = std::int64_t{kMostChange_q16} * kMostChange_q16;
 constexpr FieldTime kBlock = std::chrono::milliseconds(250);
 /// Longer without a field, and nothing is led through a lag any more.
 constexpr FieldTime kPause = std::chrono::milliseconds(500);
@@ -19,10 +21,28 @@ constexpr FieldTime kPause = std::chrono::milliseconds(500);
 /// Fields that tell as much as one, as neighbouring differences share their fields; measured by
 /// tests/benchmark/lamp_study.cpp.
 constexpr std::int64_t kDependent = 2;
+/// The same of another lamp with a pattern of such chips, and the most that it leaves over: a
+/// swing larger than ours by the half.
+constexpr std::int64_t kDependentOfAnother = 4;
+constexpr std::int64_t kMostOfAnother = 2;
+/// What noise leaves over is 6 / 2 of the scatter of a change, from theory, and at rest; less while
+/// the tool moves. More where all light flickers: that is learnt.
+constexpr std::int32_t kLeastRatio_q10 = 3 * 1024;
+/// Of a lag that is none of those tried: a sixteenth of the pattern.
+constexpr std::int64_t kOfLag = 16;
+/// The likelihoods of two lags differ by e^4 where the one leaves over so much less, over the
+/// number of fields.
+constexpr std::int64_t kClearlyLess = 16;
+constexpr std::int64_t kFieldsToLearn = 200;
+/// The fewer fields, the likelier is a correlation by chance: Student's distribution has tails.
+/// Added to the deviations that are certain: 60 over the fields that tell of their own.
+constexpr std::int64_t kTail_q4 = 60 * 16;
 constexpr std::int64_t kFewestFields = 24;
 /// A level that changes less (0.05 %) shows nothing.
 constexpr std::int64_t kLeastSquare_q16 = 33 * 33;
 
+/// From here on there is no other light worth the name.
+constexpr std::int32_t kAllTheLamps_q10 = 922;  // 90 %
 /// While nothing was proved: what other light may leave to the lamp.
 constexpr std::int32_t kLeastGain_q10 = 123;  // 12 %
 // Deviations that are certain, in 1/16. Each answer is as far from what the other would show as
@@ -32,7 +52,6 @@ constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;   // proved: a picture that kn
 constexpr std::int32_t kFromSound_q4 = 6 * 16;      // failed: a sound lamp, g as learnt
 constexpr std::int32_t kAboveLimit_q4 = 16;
 constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
-constexpr std::int32_t kBelowLimit_q4 = 5 * 16 / 2;
 constexpr std::int32_t kFirstBelowLimit_q4 = 4 * 16;
 constexpr std::int32_t kMostUndecided = 40;  // blocks: 10 s
 
@@ -58,13 +77,15 @@ void PatternWatch::begin() {
   block_until_ = FieldTime(0);
   blocks_.fill({});
   next_block_ = 0;
+  blocks_permille_ = 0;
   learnt_lag_ = -1;
+  noise_ratio_q10_ = 0;
   liveness_ = Liveness::kUnknown;
   undecided_ = 0;
   score_q4_ = 0;
 }
 
-void PatternWatch::follow(const Field& field, std::optional<std::int32_t> change_q16) {
+void PatternWatch::follow(const Field& field, std::optional<LightChange> change) {
   const FieldTime passed = field.mid_exposure - last_;
   last_ = field.mid_exposure;
   level_permille_ = field.lamp_permille;
@@ -79,18 +100,19 @@ void PatternWatch::follow(const Field& field, std::optional<std::int32_t> change
   }
   led_ = true;
   const std::size_t lines = field.parity == Parity::kOdd ? 0 : 1;
-  const bool goes_on =
-      change_q16 && chain_[lines] != 0 && std::abs(light_q16_[lines]) < kMostLight / 2;
+  const bool goes_on = change && chain_[lines] != 0 && std::abs(light_q16_[lines]) < kMostLight / 2;
   if (!goes_on) {
     chains_ = chains_ < kMostChains ? chains_ + 1 : 1;
     chain_[lines] = chains_;
     light_q16_[lines] = 0;
   } else {
-    light_q16_[lines] += std::clamp(*change_q16, -kMostLight / 2, kMostLight / 2);
+    light_q16_[lines] += std::clamp(change->mean_q16, -kMostLight / 2, kMostLight / 2);
   }
   const Moment moment{field.mid_exposure, chain_[lines], light_q16_[lines], level_q16_};
   if (goes_on) {
-    sample(moment);
+    for (std::size_t span = 0; span < kSpans; ++span) {
+      sample(moment, span, std::min(change->scatter_q32, kMostScatter_q32));
+    }
   }
   moments_[next_moment_ % kMoments] = moment;
   ++next_moment_;
@@ -100,11 +122,12 @@ void PatternWatch::follow(const Field& field, std::optional<std::int32_t> change
   }
 }
 
-/// The last moment of the same chain that is kSpan older, looked for from `place` on backwards.
-const PatternWatch::Moment* PatternWatch::before(const Moment& moment, std::uint32_t& place) const {
+/// The last moment of the same chain that is `span` older, looked for from `place` on backwards.
+const PatternWatch::Moment* PatternWatch::before(const Moment& moment, FieldTime span,
+                                                 std::uint32_t& place) const {
   for (std::uint32_t back = 1; back <= kMoments; ++back) {
     const Moment& then = moments_[(place - back) % kMoments];
-    if (then.chain == moment.chain && moment.at - then.at >= kSpan) {
+    if (then.chain == moment.chain && moment.at - then.at >= span) {
       place -= back;
       return &then;
     }
@@ -112,10 +135,15 @@ const PatternWatch::Moment* PatternWatch::before(const Moment& moment, std::uint
   return nullptr;
 }
 
-void PatternWatch::sample(const Moment& now) {
+void PatternWatch::sample(const Moment& now, std::size_t span, std::int64_t scatter_q32) {
+  // On the way to another level a lag that is none of those tried would count more than the swing.
+  const std::int64_t way = std::int64_t{now.level_q16.back()} - now.level_q16.front();
+  if (std::abs(way) * 12 > now.level_q16.front()) {
+    return;
+  }
   std::uint32_t place = next_moment_;
-  const Moment* const middle = before(now, place);
-  const Moment* const first = middle != nullptr ? before(*middle, place) : nullptr;
+  const Moment* const middle = before(now, kSpan[span], place);
+  const Moment* const first = middle != nullptr ? before(*middle, kSpan[span], place) : nullptr;
   if (first == nullptr) {
     return;
   }
@@ -134,17 +162,24 @@ void PatternWatch::sample(const Moment& now) {
       return;
     }
   }
-  ++now_.count;
-  now_.uu += u * u;
+  Sums::OfSpan& sums = now_.spans[span];
+  ++sums.count;
+  sums.uu += u * u;
+  sums.scatter += scatter_q32;
   for (std::size_t lag = 0; lag < kLags; ++lag) {
-    now_.uv[lag] += u * v[lag];
-    now_.vv[lag] += v[lag] * v[lag];
+    if (span_of(lag) == span) {
+      now_.uv[lag] += u * v[lag];
+      now_.vv[lag] += v[lag] * v[lag];
+    }
   }
 }
 
 void PatternWatch::Sums::add(const Sums& other) {
-  count += other.count;
-  uu += other.uu;
+  for (std::size_t span = 0; span < kSpans; ++span) {
+    spans[span].count += other.spans[span].count;
+    spans[span].uu += other.spans[span].uu;
+    spans[span].scatter += other.spans[span].scatter;
+  }
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     uv[lag] += other.uv[lag];
     vv[lag] += other.vv[lag];
@@ -159,7 +194,21 @@ PatternWatch::Sums PatternWatch::sum_of(std::int32_t blocks) const {
   return sums;
 }
 
+// Where other light is learnt, fields of another level have another gain, and are forgotten.
+void PatternWatch::keep_to_level() {
+  const std::int32_t off = std::abs(level_permille_ - blocks_permille_);
+  if (off * 8 <= blocks_permille_) {
+    return;
+  }
+  blocks_permille_ = level_permille_;
+  if (learnt_lag_ >= 0 && learnt_gain_q10_ < kAllTheLamps_q10) {
+    blocks_.fill({});
+    now_ = {};
+  }
+}
+
 void PatternWatch::close_block() {
+  keep_to_level();
   blocks_[next_block_ % kBlocks] = now_;
   ++next_block_;
   now_ = {};
@@ -178,56 +227,79 @@ void PatternWatch::close_block() {
   }
 }
 
-// Least squares of u = g v: the rest's mean square over that of v is the square of g's deviation,
-// over the number of fields that tell something of their own.
-PatternWatch::Gain PatternWatch::gain_of(const Sums& sums, std::size_t lag) {
+// Least squares of u = g v. What is left over, r = u - g v, says how well g is known: its variance
+// is D mean(r^2) / sum(v^2), D being how many fields tell as much as one of their own. Against a
+// picture that knows nothing of the lamp as much of r as another lamp with a pattern would make
+// counts with that pattern's D. Against a sound lamp r counts up to what noise was learnt to leave.
+PatternWatch::Gain PatternWatch::gain_of(const Sums& sums, std::size_t lag) const {
   Gain gain;
-  if (sums.count < kFewestFields || sums.vv[lag] < sums.count * kLeastSquare_q16) {
+  const Sums::OfSpan& of_span = sums.spans[span_of(lag)];
+  const std::int64_t count = of_span.count;
+  if (count < kFewestFields || sums.vv[lag] < count * kLeastSquare_q16) {
     return gain;
   }
-  const std::int64_t uu = sums.uu >> 8;
+  const std::int64_t uu = of_span.uu >> 8;
   const std::int64_t uv = sums.uv[lag] >> 8;
   const std::int64_t vv = std::max<std::int64_t>(sums.vv[lag] >> 8, 1);
   const std::int64_t explained = uv * uv / vv;
   const std::int64_t rest = std::max<std::int64_t>(uu - explained, 0);
-  constexpr std::int64_t kMostGain_q10 = 64 * 1024;
+  constexpr std::int64_t kFar_q10 = 64 * 1024;
   gain.known = true;
-  gain.q10 = static_cast<std::int32_t>(std::clamp(uv * 1024 / vv, -kMostGain_q10, kMostGain_q10));
-  const std::int64_t square_q20 = kDependent * rest * (1 << 20) / (sums.count * vv);
-  gain.sigma_q10 = static_cast<std::int32_t>(integer_root(square_q20)) + 1;
-  gain.likeness_q10 = static_cast<std::int32_t>(uu > 0 ? std::min(explained, uu) * 1024 / uu : 0);
+  gain.q10 = static_cast<std::int32_t>(std::clamp(uv * 1024 / vv, -kFar_q10, kFar_q10));
+  const auto deviation_q10 = [&](std::int64_t squares) {
+    return static_cast<std::int32_t>(integer_root((squares << 20) / (count * vv))) + 1;
+  };
+  const std::int64_t scatter = of_span.scatter >> 8;
+  const std::int64_t anothers =
+      std::clamp<std::int64_t>(rest - scatter, 0, std::min(rest, kMostOfAnother * vv));
+  const std::int64_t from_none = kDependent * (rest - anothers) + kDependentOfAnother * anothers;
+  gain.from_none_q10 = deviation_q10(from_none);
+  gain.tail_q4 =
+      static_cast<std::int32_t>(kTail_q4 * from_none / (std::max<std::int64_t>(rest, 1) * count));
+  std::int64_t noise = rest;
+  if (noise_ratio_q10_ > 0) {
+    const std::int64_t ratio_q10 = std::max(noise_ratio_q10_, kLeastRatio_q10);
+    noise = std::min(rest, (scatter * ratio_q10 >> 10) * 3 / 2 + vv / kOfLag);
+  }
+  gain.from_sound_q10 = deviation_q10(kDependent * noise);
+  gain.count = count;
+  gain.rest = rest;
+  gain.all = uu;
   return gain;
 }
 
 std::int32_t PatternWatch::Gain::above_q4(std::int32_t limit_q10) const {
-  return known ? (q10 - limit_q10) * 16 / sigma_q10 : 0;
+  return known ? (q10 - limit_q10) * 16 / from_none_q10 : 0;
 }
 
-// Half of what is expected. Light that is not the lamp's stays when the lamp is dimmed:
-// g = k L / (a + k L), and a / k was learnt with another level L.
-std::int32_t PatternWatch::limit_q10() const {
+// Light that is not the lamp's stays when the lamp is dimmed: g = k L / (a + k L), and a / k was
+// learnt with another level L. More than 1 comes of a lag that is longer than the lamp's, and is as
+// it is.
+std::int32_t PatternWatch::expected_q10() const {
   const std::int64_t lamp = std::int64_t{learnt_gain_q10_} * level_permille_;
   const std::int64_t other = std::int64_t{1024 - learnt_gain_q10_} * learnt_at_permille_;
-  const std::int64_t expected = lamp + other > 0 ? lamp * 1024 / (lamp + other) : 0;
-  return std::max(static_cast<std::int32_t>(expected / 2), kLeastGain_q10);
+  if (other < 0) {
+    return learnt_gain_q10_;
+  }
+  return static_cast<std::int32_t>(lamp + other > 0 ? lamp * 1024 / (lamp + other) : 0);
 }
 
 Liveness PatternWatch::judge(const Sums& sums) {
-  const Liveness unlearnt = judge_unlearnt(sums);
-  if (learnt_lag_ < 0) {
-    return unlearnt;
+  const Gain gain = learnt_lag_ < 0 ? Gain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
+  if (!gain.known) {
+    return judge_unlearnt(sums);
   }
-  const Gain gain = gain_of(sums, static_cast<std::size_t>(learnt_lag_));
-  const std::int32_t limit = limit_q10();
-  const std::int32_t above = gain.above_q4(limit);
-  const std::int32_t from_sound = gain.above_q4(2 * limit);
-  score_q4_ = std::min(score_q4_, from_sound);
-  if (unlearnt == Liveness::kProved ||
-      (gain.above_q4(0) >= kFromNone_q4 && above >= kAboveLimit_q4)) {
+  const std::int32_t expected = expected_q10();
+  const std::int32_t from_sound = (gain.q10 - expected) * 16 / gain.from_sound_q10;
+  score_q4_ = noise_ratio_q10_ > 0 ? std::min(score_q4_, from_sound) : 0;
+  if (gain.above_q4(0) >= kFromNone_q4 + gain.tail_q4 &&
+      gain.above_q4(std::max(expected / 2, kLeastGain_q10)) >= kAboveLimit_q4) {
     return Liveness::kProved;
   }
-  return from_sound <= -kFromSound_q4 && above <= -kBelowLimit_q4 ? Liveness::kFailed
-                                                                  : Liveness::kUnknown;
+  if (noise_ratio_q10_ > 0 && from_sound <= -kFromSound_q4 && gain.q10 < expected * 5 / 8) {
+    return Liveness::kFailed;
+  }
+  return judge_unlearnt(sums) == Liveness::kProved ? Liveness::kProved : Liveness::kUnknown;
 }
 
 // With any of the lags, or with none of them.
@@ -236,7 +308,7 @@ Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const Gain gain = gain_of(sums, lag);
     const std::int32_t above = gain.above_q4(kLeastGain_q10);
-    if (gain.above_q4(0) >= kFirstFromNone_q4 && above >= kFirstAboveLimit_q4) {
+    if (gain.above_q4(0) >= kFirstFromNone_q4 + gain.tail_q4 && above >= kFirstAboveLimit_q4) {
       return Liveness::kProved;
     }
     none = none && above <= -kFirstBelowLimit_q4;
@@ -244,27 +316,70 @@ Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
   return none ? Liveness::kFailed : Liveness::kUnknown;
 }
 
-void PatternWatch::learn(const Sums& sums) {
-  std::int32_t best = -1;
-  Gain gain;
+// The one that leaves over least; one that was learnt stays until another is clearly likelier.
+std::int32_t PatternWatch::likeliest_lag(const Sums& sums) const {
+  std::int32_t best = learnt_lag_;
+  Gain gain = best < 0 ? Gain{} : gain_of(sums, static_cast<std::size_t>(best));
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const Gain other = gain_of(sums, lag);
-    if (other.known && other.q10 > 0 && (best < 0 || other.likeness_q10 > gain.likeness_q10)) {
+    if (!other.known || other.q10 <= 0) {
+      continue;
+    }
+    const std::int64_t clearly = best == learnt_lag_ ? other.count - kClearlyLess : other.count;
+    if (!gain.known || (other.rest << 10) / std::max<std::int64_t>(other.all, 1) * other.count <
+                           (gain.rest << 10) / std::max<std::int64_t>(gain.all, 1) * clearly) {
       best = static_cast<std::int32_t>(lag);
       gain = other;
     }
   }
-  if (best < 0 || gain.above_q4(0) < kFirstFromNone_q4) {
+  return best;
+}
+
+void PatternWatch::learn(const Sums& sums) {
+  const std::int32_t best = likeliest_lag(sums);
+  if (best < 0) {
     return;
   }
-  const std::int32_t seen = std::min(gain.q10, 1024);
-  learnt_gain_q10_ = best == learnt_lag_ ? (3 * learnt_gain_q10_ + seen + 2) / 4 : seen;
+  const Gain gain = gain_of(sums, static_cast<std::size_t>(best));
+  if (gain.above_q4(0) < kFirstFromNone_q4) {
+    return;
+  }
+  // What few fields say, beside a level that is led to its place, is a beginning.
+  const bool many = gain.count >= kFieldsToLearn;
+  if (noise_ratio_q10_ > 0 && !many) {
+    return;
+  }
+  const bool goes_on = noise_ratio_q10_ > 0 && best == learnt_lag_;
+  // More than 1 only where that is certain: what was proved first by chance is too much.
+  const std::int32_t seen =
+      std::min(std::clamp(gain.q10 - 2 * gain.from_none_q10, 1024, kMostGain_q10), gain.q10);
+  learnt_gain_q10_ = goes_on ? (3 * expected_q10() + seen + 2) / 4 : seen;
   learnt_lag_ = best;
   learnt_at_permille_ = level_permille_;
+  if (many) {
+    learn_noise(gain, sums);
+  }
+}
+
+// Slowly up, so that what another picture leaves over does not pass for noise before it is found
+// out, and much more slowly down, as a tool that moves makes more of it than one at rest.
+void PatternWatch::learn_noise(const Gain& gain, const Sums& sums) {
+  const std::size_t span = span_of(static_cast<std::size_t>(learnt_lag_));
+  const std::int64_t scatter = std::max<std::int64_t>(sums.spans[span].scatter >> 8, 1);
+  const auto seen = static_cast<std::int32_t>(
+      std::clamp<std::int64_t>((gain.rest << 10) / scatter, 1, kMostRatio_q10));
+  noise_ratio_q10_ =
+      noise_ratio_q10_ == 0
+          ? seen
+          : std::clamp(seen, noise_ratio_q10_ - noise_ratio_q10_ / 256,
+                       std::min(noise_ratio_q10_ + noise_ratio_q10_ / 64 + 1, kMostRatio_q10));
 }
 
 void PatternWatch::hold(Liveness told) {
   if (told != Liveness::kUnknown) {
+    if (told == Liveness::kFailed && liveness_ != told) {
+      blocks_.fill({});  // what was seen of a sound lamp proves nothing any more
+    }
     liveness_ = told;
     undecided_ = 0;
     return;

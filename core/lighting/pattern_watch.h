@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -7,21 +8,30 @@
 
 #include "core/base/field.h"
 #include "core/base/sighting.h"
+#include "core/lighting/brightness_trail.h"
 
 namespace tubesight::core::lighting {
 
 /// Lags of a lamp that are tried: time constants of the first order. An LED has none, a small
 /// incandescent bulb some tenths of a second.
-inline constexpr std::array<std::int32_t, 5> kLags_us = {0, 30'000, 70'000, 150'000, 300'000};
+inline constexpr std::array<std::int32_t, 5> kLags_us = {0, 30'000, 70'000, 130'000, 220'000};
 inline constexpr std::size_t kLags = kLags_us.size();
+/// Differences are taken over so long: a slow lamp needs longer to show more than noise.
+inline constexpr std::size_t kSpans = 2;
+[[nodiscard]] constexpr std::size_t span_of(std::size_t lag) { return lag < 3 ? 0 : 1; }
 
 /// Whether the brightness of the picture follows the levels of the lamp that were in force.
 ///
-/// Both are looked at as second differences over some 67 ms, u of the brightness and v of the level
-/// led through a lag: that leaves of the light of a tool that moves smoothly next to nothing, and
-/// of the pattern most. The gain g = sum(uv) / sum(vv) is 1 where all light is the lamp's and 0 in
-/// a picture that knows nothing of it; what u and g v differ by says how well g is known. It is
-/// looked at over the last 1.75 s, which do at rest, over 3.5 s and over 9 s, four times a second.
+/// Both are looked at as second differences over some 67 ms, or 100 ms with a slow lamp, u of the
+/// brightness and v of the level led through a lag: that leaves of the light of a tool that moves
+/// smoothly next to nothing, and of the pattern most. The gain g = sum(uv) / sum(vv) is 1 where all
+/// light is the lamp's and 0 in a picture that knows nothing of it. It is looked at over the last
+/// 1.75 s, which do at rest, over 3.5 s and over 9 s, four times a second.
+///
+/// What u and g v differ by says how well g is known, with two limits. Another lamp with a pattern
+/// of its own leaves over what looks like noise and is not: its neighbouring fields say the same.
+/// And a sound lamp never leaves over more than the tube-ends' own noise, which their scatter
+/// shows: so another lamp's picture is not given the benefit of its own swing.
 ///
 /// Levels count as they were in force, not as they were wanted: no pattern need be known, and what
 /// a recording holds is enough to come to the same answer.
@@ -31,14 +41,21 @@ class PatternWatch {
 
   /// Takes a field: the change of its light since the last one of its parity (BrightnessTrail) and
   /// the level in force. Instants grow.
-  void follow(const Field& field, std::optional<std::int32_t> change_q16);
+  void follow(const Field& field, std::optional<LightChange> change);
 
   /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
   [[nodiscard]] Liveness liveness() const { return liveness_; }
 
+  /// How much of a change of the level is seen in the picture at this level, 1/1024: the lamp's
+  /// share in the light. Empty: it was never proved.
+  [[nodiscard]] std::optional<std::int32_t> share_q10() const {
+    return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
+  }
+
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
   /// deviations, 1/16; 0: it was not. For the study of false alarms.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
+  [[nodiscard]] std::uint32_t looks() const { return next_block_; }
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
@@ -47,6 +64,8 @@ class PatternWatch {
  private:
   static constexpr std::int32_t kMostChains = 1 << 30;
   static constexpr std::int32_t kMostLight = 1 << 28;
+  static constexpr std::int32_t kMostGain_q10 =
+      2048;  ///< learnt, of a lag that is longer than true
 
   /// A field of the last 0.3 s.
   struct Moment {
@@ -69,23 +88,35 @@ class PatternWatch {
 
   /// Sums over some time of numbers in 1/65536.
   struct Sums {
-    std::int64_t count = 0;
-    std::int64_t uu = 0;
+    struct OfSpan {
+      std::int64_t count = 0;
+      std::int64_t uu = 0;
+      std::int64_t scatter = 0;  ///< squares of the brightness's deviation
+
+      template <typename Self, typename Stream>
+      static void transfer(Self& self, Stream& stream) {
+        auto& [n, squares, deviations] = self;
+        stream.number(n, 0, 1 << 20);
+        stream.number(squares, 0, kMostSum);
+        stream.number(deviations, 0, kMostSum);
+      }
+    };
+    static constexpr std::int64_t kMostSum = std::int64_t{1} << 40;
+
+    std::array<OfSpan, kSpans> spans{};
     std::array<std::int64_t, kLags> uv{};
     std::array<std::int64_t, kLags> vv{};
 
     void add(const Sums& other);
     template <typename Self, typename Stream>
     static void transfer(Self& self, Stream& stream) {
-      auto& [n, squares, products, levels] = self;
-      constexpr std::int64_t kMost = std::int64_t{1} << 40;
-      stream.number(n, 0, 1 << 20);
-      stream.number(squares, 0, kMost);
+      auto& [of_spans, products, levels] = self;
+      stream(of_spans);
       for (auto& one : products) {
-        stream.number(one, -kMost, kMost);
+        stream.number(one, -kMostSum, kMostSum);
       }
       for (auto& one : levels) {
-        stream.number(one, 0, kMost);
+        stream.number(one, 0, kMostSum);
       }
     }
   };
@@ -93,28 +124,37 @@ class PatternWatch {
   /// What sums say of the gain with one lag.
   struct Gain {
     bool known = false;
-    std::int32_t q10 = 0;           ///< 1024: all light is the lamp's
-    std::int32_t sigma_q10 = 0;     ///< its standard deviation
-    std::int32_t likeness_q10 = 0;  ///< square of the correlation
+    std::int32_t q10 = 0;             ///< 1024: all light is the lamp's
+    std::int32_t from_none_q10 = 0;   ///< its deviation in a picture that knows nothing of the lamp
+    std::int32_t from_sound_q10 = 0;  ///< and in that of a sound one
+    std::int32_t tail_q4 = 0;         ///< further deviations that few fields need to be certain
+    std::int64_t count = 0;           ///< fields
+    std::int64_t rest = 0;            ///< what it does not explain: sum of squares, 1/2^24
+    std::int64_t all = 0;             ///< and explains: sum(uu)
 
     /// So many deviations above `limit_q10`, in 1/16.
     [[nodiscard]] std::int32_t above_q4(std::int32_t limit_q10) const;
   };
 
+  static constexpr std::int32_t kMostRatio_q10 = 1 << 24;
   static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
   static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
   static constexpr std::int32_t kMiddleBlocks = 14;
   static constexpr std::int32_t kBlocks = 36;
 
-  void sample(const Moment& now);
-  [[nodiscard]] const Moment* before(const Moment& moment, std::uint32_t& place) const;
+  void sample(const Moment& now, std::size_t span, std::int64_t scatter_q32);
+  [[nodiscard]] const Moment* before(const Moment& moment, FieldTime span,
+                                     std::uint32_t& place) const;
+  void keep_to_level();
   void close_block();
   [[nodiscard]] Sums sum_of(std::int32_t blocks) const;
-  [[nodiscard]] static Gain gain_of(const Sums& sums, std::size_t lag);
-  [[nodiscard]] std::int32_t limit_q10() const;
+  [[nodiscard]] Gain gain_of(const Sums& sums, std::size_t lag) const;
+  [[nodiscard]] std::int32_t expected_q10() const;
   [[nodiscard]] Liveness judge(const Sums& sums);
   [[nodiscard]] Liveness judge_unlearnt(const Sums& sums);
   void learn(const Sums& sums);
+  [[nodiscard]] std::int32_t likeliest_lag(const Sums& sums) const;
+  void learn_noise(const Gain& gain, const Sums& sums);
   void hold(Liveness told);
 
   std::array<std::int32_t, kLags> level_q16_{};  ///< led through each lag
@@ -130,11 +170,14 @@ class PatternWatch {
   FieldTime block_until_{0};
   std::array<Sums, kBlocks> blocks_{};
   std::uint32_t next_block_ = 0;
+  std::int32_t blocks_permille_ = 0;  ///< the level that they are about of
 
   std::int32_t level_permille_ = 0;      ///< in force in the last field
   std::int32_t learnt_lag_ = -1;         ///< place in kLags_us; -1: nothing was proved yet
   std::int32_t learnt_gain_q10_ = 0;     ///< of the lamp's light in the picture
   std::int32_t learnt_at_permille_ = 0;  ///< with that level
+  /// What is left over, to the scatter among tube-ends; 0: the gain is not learnt well yet.
+  std::int32_t noise_ratio_q10_ = 0;
   Liveness liveness_ = Liveness::kUnknown;
   std::int32_t undecided_ = 0;  ///< blocks since something was certain
   std::int32_t score_q4_ = 0;
@@ -143,7 +186,7 @@ class PatternWatch {
 template <typename Self, typename Stream>
 void PatternWatch::transfer(Self& self, Stream& stream) {
   auto& [levels, led, last, lights, chain, chains, moments, next_moment, now, block_until, blocks,
-         next_block, level, lag, gain, gain_at, told, undecided, score] = self;
+         next_block, blocks_level, level, lag, gain, gain_at, noise, told, undecided, score] = self;
   for (auto& one : levels) {
     stream.number(one, 0, kFullLamp_permille << 16);
   }
@@ -156,10 +199,12 @@ void PatternWatch::transfer(Self& self, Stream& stream) {
   }
   stream.number(chains, 0, kMostChains);
   stream(moments, next_moment, now, block_until, blocks, next_block);
+  stream.number(blocks_level, 0, kFullLamp_permille);
   stream.number(level, 0, kFullLamp_permille);
   stream.number(lag, -1, static_cast<std::int32_t>(kLags) - 1);
-  stream.number(gain, 0, 1024);
+  stream.number(gain, 0, kMostGain_q10);
   stream.number(gain_at, 0, kFullLamp_permille);
+  stream.number(noise, 0, kMostRatio_q10);
   stream.choice(told, Liveness::kFailed);
   stream.number(undecided, 0, 1 << 20);
   stream(score);

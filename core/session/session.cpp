@@ -10,6 +10,15 @@ constexpr bool knows_place(TrackState state) {
   return state == TrackState::kTracking || state == TrackState::kDegraded;
 }
 
+/// Slower than that a tool rests, for the lamp: tube-ends stay where they are in the light.
+constexpr std::int32_t kStill_um_s = 3'000;
+
+constexpr bool rests(const Sighting& sighting) {
+  const auto slow = [](std::int32_t speed) { return -kStill_um_s < speed && speed < kStill_um_s; };
+  return sighting.velocity_known && slow(sighting.velocity_um_s[0]) &&
+         slow(sighting.velocity_um_s[1]);
+}
+
 }  // namespace
 
 template <Scalar S, typename Margin>
@@ -77,7 +86,8 @@ void Session<S, Margin>::follow_lamp(const Input& input, Output& output) {
   if (!output.lamp_ruled) {
     return;
   }
-  lighting_.look({&input.field, output.tubes, model_.window, knows_place(output.sighting.state)});
+  lighting_.look({&input.field, output.tubes, model_.window, knows_place(output.sighting.state),
+                  rests(output.sighting)});
   if (lighting_.liveness() == Liveness::kFailed && knows_place(output.sighting.state)) {
     tracker_.give_up(Reason::kNotLive, input.field, output.sighting, output.tubes);
   }

@@ -77,7 +77,7 @@ Sound run_sound(const Light& light, double seconds, std::uint64_t seed) {
   bench->start();
   Dice dice(seed);
   Sound sound;
-  std::int32_t last_score = 0;
+  std::uint32_t looks = 0;
   for (std::int64_t field = 0; field < static_cast<std::int64_t>(seconds * 60.0); ++field) {
     keep_moving(*bench, light, dice);
     bench->run(1.0 / 60.0);
@@ -88,10 +88,10 @@ Sound run_sound(const Light& light, double seconds, std::uint64_t seed) {
     if (sighting.liveness == Liveness::kProved && sound.first_proof_s < 0.0) {
       sound.first_proof_s = static_cast<double>(field) / 60.0;
     }
-    const std::int32_t score = bench->session().lighting().watch().last_score_q4();
-    if (score != last_score) {
-      sound.scores.push_back(score / 16.0);
-      last_score = score;
+    const auto& watch = bench->session().lighting().watch();
+    if (watch.looks() != looks) {
+      looks = watch.looks();
+      sound.scores.push_back(watch.last_score_q4() / 16.0);
     }
     const LampCondition condition = bench->output().lamp;
     sound.faults += core::lighting::is_fault(condition) ? 1 : 0;
@@ -109,10 +109,31 @@ constexpr std::array<Light, 8> kLights = {{{0.0, 0.0, false, 100.0},
                                            {0.2, 0.0, true, 100.0},
                                            {0.03, 0.0, true, 300.0}}};
 
+/// Alarms in 100 h, as the lowest hundredth of the scores goes on to the alarm's: its excesses over
+/// the limit of that hundredth are taken to fall off as an exponential does (`power` 1, more than a
+/// Gaussian's do), or as those of a Gaussian (`power` 2, squares of the distance from the mean).
+double alarms_in_100_hours(std::vector<double> scores, double mean, double power) {
+  constexpr double kAlarm = 6.0;
+  constexpr double kLooks = 100.0 * 3600.0 * 4.0;
+  const auto far = [&](double score) { return std::pow(std::max(mean - score, 0.0), power); };
+  std::sort(scores.begin(), scores.end());
+  const std::size_t count = scores.size() / 100;
+  if (count < 10) {
+    return -1.0;
+  }
+  double excess = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    excess += far(scores[i]) - far(scores[count]);
+  }
+  excess /= static_cast<double>(count);
+  return kLooks * 0.01 * std::exp(-(far(-kAlarm) - far(scores[count])) / excess);
+}
+
 int study_sound(double hours) {
   std::printf(
       "| lag s | ring | speed mm/s | h | first proof s | proved | failed | score mean | "
-      "sigma | least |\n|---|---|---|---|---|---|---|---|---|---|\n");
+      "sigma | least | alarms in 100 h: exponential | as a Gaussian |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   int wrong = 0;
   for (const Light& light : kLights) {
     Sound all;
@@ -139,12 +160,15 @@ int study_sound(double hours) {
     }
     const double n = std::max<double>(1.0, static_cast<double>(all.scores.size()));
     mean /= n;
-    std::printf("| %.2f | %.1f | %.0f | %.2f | %.2f | %.3f | %ld | %.1f | %.2f | %.1f |\n",
-                light.lag_s, light.ring, light.moves ? light.speed_mm_s : 0.0,
-                static_cast<double>(all.fields) / 216000.0, slowest_s,
-                static_cast<double>(all.proved) / static_cast<double>(all.fields),
-                static_cast<long>(all.failed + all.faults), mean,
-                std::sqrt(std::max(0.0, square / n - mean * mean)), least);
+    std::printf(
+        "| %.2f | %.1f | %.0f | %.2f | %.2f | %.3f | %ld | %.1f | %.2f | %.1f | %.1g | %.1g |\n",
+        light.lag_s, light.ring, light.moves ? light.speed_mm_s : 0.0,
+        static_cast<double>(all.fields) / 216000.0, slowest_s,
+        static_cast<double>(all.proved) / static_cast<double>(all.fields),
+        static_cast<long>(all.failed + all.faults), mean,
+        std::sqrt(std::max(0.0, square / n - mean * mean)), least,
+        alarms_in_100_hours(all.scores, mean, 1.0), alarms_in_100_hours(all.scores, mean, 2.0));
+    std::fflush(stdout);
     wrong += all.failed > 0 || all.faults > 0 ? 1 : 0;
   }
   return wrong;
@@ -209,6 +233,7 @@ int study_faults(int count) {
         wrong += (found_s < 0.0 && lost_s < 0.0) || bench->wrong() > 0 ? 1 : 0;
       }
       std::printf("\n");
+      std::fflush(stdout);
     }
   }
   return wrong;

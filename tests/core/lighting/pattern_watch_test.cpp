@@ -25,7 +25,9 @@ class WatchedLamp : public testing::Test {
     double share = 1.0;   ///< of the lamp in all light
     double noise = 1e-3;  ///< sigma of the brightness from field to field, of itself
     double level = 600.0;
+    bool scatters = true;  ///< the noise is the tube-ends' own
     bool frozen = false;
+    bool anothers = false;  ///< another lamp's pattern
     bool swings = true;
   };
 
@@ -44,7 +46,10 @@ class WatchedLamp : public testing::Test {
     constexpr double kSpan_s = 1.0 / 60.0;
     now_ += std::chrono::nanoseconds(16'666'667);
     shine_ += (level_ - shine_) * (kSpan_s / (kSpan_s + world.lag_s));
-    if (!world.frozen) {
+    follow_another(world, kSpan_s);
+    if (world.anothers) {
+      light_ = anothers_;
+    } else if (!world.frozen) {
       light_ = world.share * shine_ / 600.0 + (1.0 - world.share);
     }
     const std::size_t odd = number_ % 2 != 0 ? 1 : 0;
@@ -53,10 +58,12 @@ class WatchedLamp : public testing::Test {
     field.mid_exposure = now_;
     field.parity = odd != 0 ? Parity::kOdd : Parity::kEven;
     field.lamp_permille = static_cast<std::int32_t>(level_);
-    std::optional<std::int32_t> change;
+    std::optional<LightChange> change;
     if (number_ >= 2) {
-      change = static_cast<std::int32_t>(
-          std::lround((seen - last_[odd]) / (seen + last_[odd]) * 131'072.0));
+      const double noise_q16 = world.noise * 65'536.0;
+      change = LightChange{static_cast<std::int32_t>(
+                               std::lround((seen - last_[odd]) / (seen + last_[odd]) * 131'072.0)),
+                           world.scatters ? std::llround(2.0 * noise_q16 * noise_q16) : 1};
     }
     last_[odd] = seen;
     ++number_;
@@ -66,12 +73,22 @@ class WatchedLamp : public testing::Test {
                           : world.level;
   }
 
+  /// It swings as ours does, with the same lag, at times of its own.
+  void follow_another(const World& world, double span_s) {
+    if (number_ % 3 == 1) {
+      anothers_level_ = (random_() & 1U) != 0 ? 1.01 : 0.99;
+    }
+    anothers_ += (anothers_level_ - anothers_) * (span_s / (span_s + world.lag_s));
+  }
+
   PatternWatch watch_;
   LampPattern pattern_;
   FieldTime now_{std::chrono::seconds(5)};
   double level_ = 600.0;
   double shine_ = 600.0;
   double light_ = 1.0;
+  double anothers_ = 1.0;
+  double anothers_level_ = 1.0;
   std::array<double, 2> last_{};
   int number_ = 0;
   std::mt19937 random_{5};
@@ -110,6 +127,38 @@ TEST_F(WatchedLamp, IsRefutedByAFrozenPictureUnderNoise) {
     EXPECT_GE(proved_s, 0.0) << lag_s;
     EXPECT_LE(proved_s, 2.0) << lag_s;
   }
+}
+
+// Whatever the lag, within two seconds in nine of ten beginnings, and soon in all of them.
+TEST_F(WatchedLamp, IsRefutedByAnothersPattern) {
+  for (const double lag_s : {0.0, 0.05, 0.07, 0.1, 0.15, 0.2}) {
+    int late = 0;
+    constexpr int kTimes = 20;
+    for (int i = 0; i < kTimes; ++i) {
+      watch_.begin();
+      ASSERT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = lag_s}), 0.0);
+      ASSERT_LT(run_until(Liveness::kFailed, 12.0, {.lag_s = lag_s}), 0.0);
+      const double failed_s =
+          run_until(Liveness::kFailed, 12.0, {.lag_s = lag_s, .anothers = true});
+      EXPECT_GE(failed_s, 0.0) << lag_s;
+      late += failed_s > 2.0 ? 1 : 0;
+    }
+    EXPECT_LE(late, lag_s > 0.1 ? kTimes / 4 : kTimes / 10) << lag_s;
+  }
+}
+
+// The pattern of another lamp is like ours, and like itself from field to field.
+TEST_F(WatchedLamp, IsNotProvedByAnothersPattern) {
+  for (const double lag_s : {0.0, 0.07, 0.2}) {
+    watch_.begin();
+    EXPECT_LT(run_until(Liveness::kProved, 300.0, {.lag_s = lag_s, .anothers = true}), 0.0)
+        << lag_s;
+  }
+}
+
+// Noise that is the same everywhere shows in no scatter: it is learnt.
+TEST_F(WatchedLamp, IsNotRefutedByLightThatFlickersFromTheBeginning) {
+  EXPECT_LT(run_until(Liveness::kFailed, 120.0, {.noise = 4e-3, .scatters = false}), 0.0);
 }
 
 TEST_F(WatchedLamp, IsRefutedWhereAllLightIsAnother) {
