@@ -4,9 +4,9 @@
 
 #include "core/base/field.h"
 #include "core/base/settings.h"
+#include "drivers/camera/picture_look.h"
 #include "drivers/v4l2/camera_report.h"
 #include "drivers/v4l2/camera_setup.h"
-#include "drivers/v4l2/picture_look.h"
 #include "drivers/v4l2/sequence_counter.h"
 #include "drivers/v4l2/stamp_judge.h"
 
