@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/assert.h"
+#include "drivers/camera/camera_identity.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -13,12 +14,6 @@ using core::Result;
 using core::Unexpected;
 using std::chrono::milliseconds;
 
-/// Without any picture for so long the camera is taken for lost; the library says so after 5 s.
-constexpr FieldTime kSilence = std::chrono::seconds(1);
-/// The same before the first one: a camera may have to settle.
-constexpr FieldTime kFirstSilence = std::chrono::seconds(5);
-/// The same of a slow camera, in fields.
-constexpr std::int32_t kSilentFields = 20;
 /// What the buffers bridge while nobody takes any.
 constexpr FieldTime kBridged = milliseconds(250);
 constexpr std::int32_t kFewestBuffers = 8;
@@ -55,9 +50,7 @@ Result<void> AravisFrameGrabber::start() {
   counted_ = {};
   fields_left_ = 0;
   failed_ = false;
-  start_ = clock_->now();
-  last_picture_ = start_;
-  settled_ = false;
+  silence_.begin(clock_->now());
   started_ = true;
   report_.trouble = AravisTrouble::kNone;
   publish();
@@ -71,9 +64,8 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
   }
   device_ = *opened;
   const std::string serial = device_->serial();
-  if (!settings_.serial.empty() && serial != settings_.serial) {
-    message = (serial.empty() ? "says no serial number" : "has the serial number " + serial) +
-              ", expected " + settings_.serial + ", the one that was calibrated";
+  message = serial_mismatch(settings_.serial, serial);
+  if (!message.empty()) {
     return Unexpected(Error::kUnsupported);
   }
   agreed_ = {};
@@ -151,13 +143,12 @@ Result<void> AravisFrameGrabber::next_picture(milliseconds timeout) {
       return break_off(AravisTrouble::kControlLost, Error::kDisconnected);
     case aravis::Taken::kPicture: break;
   }
-  last_picture_ = clock_->now();
-  settled_ = true;
+  silence_.broken(clock_->now());
   held_ = picture.buffer;
   fields_left_ = fields_a_picture();
   next_ = judge_.first_field(picture);
   // A packet size that does not come through: pictures begin and none is ever whole.
-  if (!judge_.had_complete() && last_picture_ - start_ >= kFirstSilence) {
+  if (!judge_.had_complete() && silence_.past_settling(silence_.last())) {
     device_->give_back(held_);
     fields_left_ = 0;
     return break_off(AravisTrouble::kIncomplete, Error::kIo);
@@ -166,9 +157,7 @@ Result<void> AravisFrameGrabber::next_picture(milliseconds timeout) {
 }
 
 Result<void> AravisFrameGrabber::nothing_came() {
-  const FieldTime longest =
-      std::max<FieldTime>(settled_ ? kSilence : kFirstSilence, kSilentFields * agreed_.span);
-  if (clock_->now() - last_picture_ < longest) {
+  if (!silence_.too_long(clock_->now(), agreed_.span)) {
     return Unexpected(Error::kTimeout);
   }
   ++report_.counters.silences;

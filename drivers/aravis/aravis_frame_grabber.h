@@ -13,6 +13,7 @@
 #include "drivers/aravis/camera_setup.h"
 #include "drivers/aravis/library.h"
 #include "drivers/aravis/picture_judge.h"
+#include "drivers/camera/silence.h"
 #include "hal/clock.h"
 #include "hal/frame_grabber.h"
 
@@ -94,12 +95,10 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   bool lent_ = false;
   bool failed_ = false;
   core::Error failure_ = core::Error::kNotReady;
-  std::int32_t held_ = 0;            ///< the buffer in our hands
-  std::int32_t fields_left_ = 0;     ///< of it, not lent yet
-  core::Field next_;                 ///< the first of those, but for its pixels
-  core::FieldTime last_picture_{0};  ///< when it arrived; before the first one the start
-  core::FieldTime start_{0};
-  bool settled_ = false;  ///< there was one since the start
+  std::int32_t held_ = 0;         ///< the buffer in our hands
+  std::int32_t fields_left_ = 0;  ///< of it, not lent yet
+  core::Field next_;              ///< the first of those, but for its pixels
+  Silence silence_;
 
   std::atomic<std::int64_t> underruns_{0};
   std::atomic<std::int64_t> resent_packets_{0};

@@ -5,6 +5,7 @@
 
 #include <linux/videodev2.h>
 
+#include "drivers/camera/camera_identity.h"
 #include "drivers/v4l2/camera_finder.h"
 
 namespace tubesight::drivers::v4l2 {
@@ -90,12 +91,8 @@ Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string
   }
   agreed_.api = *api;
   const std::string serial = serial_of(*kernel_, node);
-  if (!settings.serial.empty() && serial != settings.serial) {
-    return refuse(Error::kUnsupported, message,
-                  (serial.empty() ? "says no serial number" : "has the serial number " + serial) +
-                      ", expected " + settings.serial + ", the one that was calibrated");
-  }
-  return {};
+  const std::string wrong = serial_mismatch(settings.serial, serial);
+  return wrong.empty() ? Result<void>() : refuse(Error::kUnsupported, message, wrong);
 }
 
 void CameraDevice::close() {

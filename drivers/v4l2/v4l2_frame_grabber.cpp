@@ -19,13 +19,6 @@ using core::Result;
 using core::Unexpected;
 using v4l2::BufferKind;
 
-/// Without any buffer for so long the stream is begun anew: some grabbers start in vain at every
-/// tenth time, and deliver at the next.
-constexpr FieldTime kSilence = std::chrono::seconds(1);
-/// The same before the first one: a camera may have to settle.
-constexpr FieldTime kFirstSilence = std::chrono::seconds(5);
-/// The same of a slow camera, in fields.
-constexpr std::int32_t kSilentFields = 20;
 /// Refusals in a row after which the stream is given up; one alone passes.
 constexpr std::int32_t kMostRefusals = 3;
 /// Buffers announced in a row without one being there: a device that does this would keep a
@@ -67,8 +60,7 @@ Result<void> V4l2FrameGrabber::start() {
   }
   fields_left_ = 0;
   failed_ = false;
-  last_buffer_ = now;
-  settled_ = false;
+  silence_.begin(now);
   looked_ = now;
   backlog_ = false;
   idle_in_a_row_ = 0;
@@ -196,9 +188,7 @@ Result<void> V4l2FrameGrabber::wait(FieldTime until) {
 }
 
 Result<void> V4l2FrameGrabber::nothing_came() {
-  const FieldTime longest = std::max<FieldTime>(settled_ ? kSilence : kFirstSilence,
-                                                kSilentFields * device_.agreed().span);
-  if (clock_->now() - last_buffer_ < longest) {
+  if (!silence_.too_long(clock_->now(), device_.agreed().span)) {
     return Unexpected(Error::kTimeout);
   }
   ++report_.counters.silences;
@@ -235,14 +225,13 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
     }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
-    last_buffer_ = clock_->now();
-    settled_ = true;
+    silence_.broken(clock_->now());
     held_ = buffer.index;
     if (!settings_.use_stamps) {
       buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
     }
     fields_left_ = fields_a_buffer();
-    next_ = judge_.first_field(buffer, {last_buffer_, backlog_}, no_signal_);
+    next_ = judge_.first_field(buffer, {silence_.last(), backlog_}, no_signal_);
     return true;
   }
   bool passes = false;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/snapshot.h"
+#include "drivers/camera/silence.h"
 #include "drivers/v4l2/buffer_judge.h"
 #include "drivers/v4l2/camera_device.h"
 #include "drivers/v4l2/camera_report.h"
@@ -91,13 +92,12 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   bool lent_ = false;
   bool failed_ = false;
   core::Error failure_ = core::Error::kNotReady;
-  std::uint32_t held_ = 0;          ///< the buffer in our hands
-  std::int32_t fields_left_ = 0;    ///< of it, not lent yet
-  core::Field next_;                ///< the first of those, but for its pixels
-  core::FieldTime last_buffer_{0};  ///< when it arrived; before the first one the start
-  bool settled_ = false;            ///< there was one since the start
-  core::FieldTime looked_{0};       ///< when somebody last waited for one
-  bool backlog_ = false;            ///< it may have lain there for long
+  std::uint32_t held_ = 0;        ///< the buffer in our hands
+  std::int32_t fields_left_ = 0;  ///< of it, not lent yet
+  core::Field next_;              ///< the first of those, but for its pixels
+  Silence silence_;
+  core::FieldTime looked_{0};  ///< when somebody last waited for one
+  bool backlog_ = false;       ///< it may have lain there for long
   std::int32_t idle_in_a_row_ = 0;
   std::int32_t errors_in_a_row_ = 0;
   std::int32_t refused_in_a_row_ = 0;
