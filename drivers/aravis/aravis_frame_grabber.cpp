@@ -192,6 +192,7 @@ core::FieldView AravisFrameGrabber::view_of(core::Parity parity) {
 hal::FieldLease AravisFrameGrabber::lend() {
   core::Field field = next_;
   field.pixels = view_of(field.parity);
+  judge_.look_at_picture(field);
   if (--fields_left_ > 0) {
     next_ = judge_.second_field();
   }

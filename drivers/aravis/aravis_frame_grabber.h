@@ -26,10 +26,11 @@ namespace tubesight::drivers {
 /// field are taken out when it is lent. A picture may hold both fields of an interlaced frame, line
 /// by line: so converters of analogue video deliver.
 ///
-/// What cannot be believed is a damaged field: what is incomplete, of another size, what comes
-/// twice or with a time that cannot be, and the first ones after a start. What ends the stream ends
-/// it for good: grab_for() says the error until stop() and start(), which take seconds when the
-/// camera is gone. The library tells a loss 5 s late: a time-out of our own is what finds it.
+/// What cannot be believed is a damaged field: what is incomplete, of another size, snow, a picture
+/// of one grey, what comes twice or with a time that cannot be, and the first ones after a start.
+/// What ends the stream ends it for good: grab_for() says the error until stop() and start(), which
+/// take seconds when the camera is gone. The library tells a loss 5 s late: a time-out of our own
+/// is what finds it.
 ///
 /// start(), stop() and look_after() belong to one thread, grab_for() and give_back() to another or
 /// the same; between the two kinds whoever owns the grabber hands it over. Those two allocate

@@ -12,6 +12,8 @@ enum class AravisTrouble : std::uint8_t {
   kNotOpen,      ///< it was not opened yet, or could not be: messages() say why
   kSettling,     ///< the first pictures after a start: they may be old, or without a clock yet
   kIncomplete,   ///< packets of pictures get lost
+  kNoise,        ///< pictures are snow
+  kBlank,        ///< pictures are of one grey
   kOtherSize,    ///< pictures are not what was agreed
   kStamps,       ///< times jump or go back
   kRepeated,     ///< the same picture twice

@@ -31,9 +31,6 @@ struct CameraCounters : PictureCounters {
   std::int64_t flagged = 0;         ///< buffers that the driver marked as damaged
   std::int64_t cut_short = 0;       ///< buffers with less than the picture
   std::int64_t without_signal = 0;  ///< buffers while the input said that none came in
-  std::int64_t noise = 0;           ///< pictures of snow
-  std::int64_t blank = 0;           ///< pictures of one grey that is not black
-  std::int64_t black = 0;           ///< pictures of black alone
   std::int64_t wrong_stamps = 0;    ///< buffers whose stamp cannot be
   std::int64_t odd_order = 0;       ///< buffers with other fields than agreed
   std::int64_t queue_errors = 0;    ///< buffers that the driver did not take back
