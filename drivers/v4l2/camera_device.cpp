@@ -60,11 +60,6 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
   keep_input();
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
-  // A driver that knows nothing of it never says that the source has changed.
-  v4l2_event_subscription change{};
-  change.type = V4L2_EVENT_SOURCE_CHANGE;
-  change.id = agreed_.input;
-  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
   return ring_.open(descriptor_, agreed_.api, agreed_.bytes, message);
 }
 
@@ -109,11 +104,23 @@ bool CameraDevice::switched() {
          static_cast<std::uint32_t>(index) != agreed_.input;
 }
 
-bool CameraDevice::without_signal() {
+Signal CameraDevice::signal() {
   v4l2_input input{};
   input.index = agreed_.input;
-  return agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0 &&
-         says_no_signal(input.status);
+  if (agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0) {
+    if (says_no_signal(input.status)) {
+      return Signal::kNone;
+    }
+    if (says_no_standard(input.status)) {
+      return Signal::kOtherStandard;
+    }
+  }
+  if (agreed_.standard == VideoStandard::kNone) {
+    return Signal::kGood;
+  }
+  const VideoStandard sensed = sense_standard(*kernel_, descriptor_);
+  return sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
+                                                                      : Signal::kOtherStandard;
 }
 
 }  // namespace tubesight::drivers::v4l2

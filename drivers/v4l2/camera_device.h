@@ -6,6 +6,7 @@
 #include "drivers/v4l2/buffer_ring.h"
 #include "drivers/v4l2/camera_setup.h"
 #include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/signal.h"
 #include "drivers/v4l2/v4l2_settings.h"
 
 namespace tubesight::drivers::v4l2 {
@@ -27,8 +28,8 @@ class CameraDevice {
   /// Whether another program has chosen another input: pictures are another camera's.
   [[nodiscard]] bool switched();
 
-  /// Whether the input says that no signal comes in. May take its time.
-  [[nodiscard]] bool without_signal();
+  /// What the driver says of the signal that comes in. May take its time.
+  [[nodiscard]] Signal signal();
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] const AgreedFormat& agreed() const { return agreed_; }

@@ -11,6 +11,7 @@ enum class CameraTrouble : std::uint8_t {
   kNone,
   kNotOpen,        ///< it was not opened yet, or could not be: messages() say why
   kNoSignal,       ///< it delivers, but its input says that no signal comes in
+  kStandard,       ///< the signal is of another standard than the input is set to
   kNoise,          ///< pictures are snow
   kBlank,          ///< pictures are of one grey
   kDamaged,        ///< the driver marks its pictures as damaged, or they are cut short
@@ -31,6 +32,7 @@ struct CameraCounters : PictureCounters {
   std::int64_t flagged = 0;         ///< buffers that the driver marked as damaged
   std::int64_t cut_short = 0;       ///< buffers with less than the picture
   std::int64_t without_signal = 0;  ///< buffers while the input said that none came in
+  std::int64_t other_standard = 0;  ///< buffers of a signal of another standard
   std::int64_t wrong_stamps = 0;    ///< buffers whose stamp cannot be
   std::int64_t odd_order = 0;       ///< buffers with other fields than agreed
   std::int64_t queue_errors = 0;    ///< buffers that the driver did not take back

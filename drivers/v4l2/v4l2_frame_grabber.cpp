@@ -86,7 +86,7 @@ void V4l2FrameGrabber::stop() {
 
 void V4l2FrameGrabber::look_after() {
   if (started_) {
-    no_signal_ = device_.without_signal();
+    signal_ = device_.signal();
   }
 }
 
@@ -231,7 +231,7 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
       buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
     }
     fields_left_ = fields_a_buffer();
-    next_ = judge_.first_field(buffer, {silence_.last(), backlog_}, no_signal_);
+    next_ = judge_.first_field(buffer, {silence_.last(), backlog_}, signal_);
     return true;
   }
   bool passes = false;
