@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/assert.h"
-#include "drivers/camera/camera_identity.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -28,7 +27,7 @@ std::int32_t buffers_at(FieldTime frame) {
 
 AravisFrameGrabber::AravisFrameGrabber(const AravisSettings& settings, const hal::Clock& clock,
                                        aravis::Library& library)
-    : settings_(settings), clock_(&clock), library_(&library) {}
+    : settings_(settings), clock_(&clock), library_(&library), identity_(settings.calibrated) {}
 
 Result<void> AravisFrameGrabber::start() {
   if (started_) {
@@ -63,8 +62,8 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
     return Unexpected(opened.error());
   }
   device_ = *opened;
-  const std::string serial = device_->serial();
-  message = serial_mismatch(settings_.serial, serial);
+  const CameraIdentity found{device_->serial(), device_->maker_and_model()};
+  message = identity_.refusal(found);
   if (!message.empty()) {
     return Unexpected(Error::kUnsupported);
   }
@@ -83,6 +82,7 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
     message = "does not start to stream: " + why;
     return Unexpected(Error::kIo);
   }
+  identity_.keep(found);
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include "drivers/aravis/camera_setup.h"
 #include "drivers/aravis/library.h"
 #include "drivers/aravis/picture_judge.h"
+#include "drivers/camera/camera_identity.h"
 #include "drivers/camera/silence.h"
 #include "hal/clock.h"
 #include "hal/frame_grabber.h"
@@ -59,6 +60,10 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   /// Lines of the last start(), for a person.
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 
+  /// What the calibration leaves open of the camera that was opened last; of the thread that
+  /// starts.
+  [[nodiscard]] std::string doubt() const { return identity_.doubt(); }
+
   /// From one field to the next, and fields that come at once; valid once started.
   [[nodiscard]] core::FieldTime span() const { return agreed_.span; }
   [[nodiscard]] std::int32_t fields_a_picture() const { return agreed_.pair ? 2 : 1; }
@@ -83,6 +88,7 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   std::vector<std::string> messages_;
 
   // Of the thread that starts.
+  IdentityWatch identity_;
   aravis::Device* device_ = nullptr;
   aravis::StreamCounts counted_;    ///< of this stream, so far
   bool safe_packets_ = false;       ///< the next start does not negotiate them

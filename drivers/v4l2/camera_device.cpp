@@ -5,7 +5,6 @@
 
 #include <linux/videodev2.h>
 
-#include "drivers/camera/camera_identity.h"
 #include "drivers/v4l2/camera_finder.h"
 
 namespace tubesight::drivers::v4l2 {
@@ -22,17 +21,17 @@ Result<void> refuse(Error error, std::string& message, const std::string& what) 
 
 }  // namespace
 
-Result<void> CameraDevice::open(const V4l2Settings& settings, std::string& message) {
-  const auto opened = open_all(settings, message);
+Result<void> CameraDevice::open(std::string& message) {
+  const auto opened = open_all(message);
   if (!opened) {
     close();
-    message = "camera " + settings.device + ": " + message;
+    message = "camera " + settings_.device + ": " + message;
   }
   return opened;
 }
 
-Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& message) {
-  const std::string node = find_camera(*kernel_, settings.device);
+Result<void> CameraDevice::open_all(std::string& message) {
+  const std::string node = find_camera(*kernel_, settings_.device);
   if (node.empty()) {
     std::string there;
     for (const CameraInfo& camera : list_cameras(*kernel_)) {
@@ -47,7 +46,7 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
   agreed_ = {};
-  TUBESIGHT_TRY(check(settings, node, message));
+  TUBESIGHT_TRY(check(node, message));
   // Nothing is set on a camera that another program uses: its input would be switched under it. No
   // buffers are asked for, which only the stranger is refused.
   v4l2_requestbuffers none{};
@@ -58,9 +57,11 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
                   "is busy: another program takes its pictures, expected it free");
   }
   keep_input();
-  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
+  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
-  return ring_.open(descriptor_, agreed_.api, agreed_.bytes, message);
+  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_.api, agreed_.bytes, message));
+  identity_.keep(found_);
+  return {};
 }
 
 /// Settings that name no input take the one found at the first start, not one that somebody has
@@ -73,8 +74,7 @@ void CameraDevice::keep_input() {
   }
 }
 
-Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string& node,
-                                 std::string& message) {
+Result<void> CameraDevice::check(const std::string& node, std::string& message) {
   v4l2_capability can{};
   if (kernel_->ioctl(descriptor_, VIDIOC_QUERYCAP, &can) != 0) {
     return refuse(Error::kUnsupported, message, "is no camera");
@@ -85,8 +85,9 @@ Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string
                   "is no camera, expected one that streams pictures of one plane");
   }
   agreed_.api = *api;
-  const std::string serial = serial_of(*kernel_, node);
-  const std::string wrong = serial_mismatch(settings.serial, serial);
+  found_ = {serial_of(*kernel_, node),
+            text_of(can.driver, sizeof can.driver) + " " + text_of(can.card, sizeof can.card)};
+  const std::string wrong = identity_.refusal(found_);
   return wrong.empty() ? Result<void>() : refuse(Error::kUnsupported, message, wrong);
 }
 

@@ -36,7 +36,7 @@ constexpr bool device_is_gone(int status) {
 
 V4l2FrameGrabber::V4l2FrameGrabber(const V4l2Settings& settings, const hal::Clock& clock,
                                    v4l2::Kernel& kernel)
-    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(kernel) {}
+    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel) {}
 
 Result<void> V4l2FrameGrabber::start() {
   if (started_) {
@@ -44,7 +44,7 @@ Result<void> V4l2FrameGrabber::start() {
   }
   messages_.clear();
   std::string message;
-  if (const auto opened = device_.open(settings_, message); !opened) {
+  if (const auto opened = device_.open(message); !opened) {
     messages_.push_back(message);
     report_.trouble = CameraTrouble::kNotOpen;
     publish();

@@ -56,6 +56,10 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   /// Lines of the last start(), for a person.
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 
+  /// What the calibration leaves open of the camera that was opened last; of the thread that
+  /// starts.
+  [[nodiscard]] std::string doubt() const { return device_.doubt(); }
+
   /// From one field to the next, and fields that come at once; valid once started.
   [[nodiscard]] core::FieldTime span() const { return device_.agreed().span; }
   [[nodiscard]] std::int32_t fields_a_buffer() const {
