@@ -18,6 +18,7 @@ class AravisCamera final : public Camera {
   [[nodiscard]] hal::FrameGrabber& grabber() override { return grabber_; }
   void look_after() override { grabber_.look_after(); }
   [[nodiscard]] std::string message() const override;
+  [[nodiscard]] std::string doubt() const override { return grabber_.doubt(); }
   [[nodiscard]] core::FieldTime span() const override { return grabber_.span(); }
   [[nodiscard]] std::int32_t fields_at_once() const override { return grabber_.fields_a_picture(); }
   [[nodiscard]] CameraStatus status() const override;

@@ -57,6 +57,7 @@ void add_source(JsonLine& line, const BoxReport& report) {
   }
   line.open("camera").add("well", report.camera->well).add("words", report.camera->words);
   line.add("counts", report.camera->counts).add("stamps", report.camera->stamps);
+  line.add("doubt", report.camera->doubt);
   for (const auto& [name, count] : report.camera->counters) {
     line.add(name, count);
   }
@@ -219,6 +220,7 @@ std::string status_text(const BoxReport& report) {
     text += ", " + std::to_string(report.made_late) + " made too late";
   }
   text += report.camera ? "\ncamera    " + report.camera->words : "";
+  text += report.camera && !report.camera->doubt.empty() ? "; " + report.camera->doubt : "";
   text += "\ntracking  " + sighting_text(tracking.sighting);
   text += "\nfields    " + std::to_string(tracking.counters.fields) + ", of which " +
           std::to_string(tracking.counters.missing) + " did not come; " +
@@ -295,6 +297,10 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                   std::string(report.source_kind) + ", " + std::string(name_of(report.source))});
   if (report.camera) {
     rows.push_back({"camera", good_if(report.camera->well), report.camera->words});
+    // No fault: the box cannot look for what nobody has told it.
+    const bool bound = report.camera->doubt.empty();
+    rows.push_back({"identity", bound ? Verdict::kGood : Verdict::kAbsent,
+                    bound ? "the calibration names this camera" : report.camera->doubt});
   }
   const double nominal =
       report.span.count() > 0 ? 1.0 / std::chrono::duration<double>(report.span).count() : 0.0;

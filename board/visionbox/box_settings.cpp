@@ -116,7 +116,7 @@ void tell(const drivers::SessionFile& session, Settings& camera) {
   camera.width_px = session.settings.camera.width_px;
   camera.height_px = session.settings.camera.height_px;
   camera.scan = session.settings.camera.scan;
-  camera.serial = session.camera_quality.serial;
+  camera.calibrated = {session.camera_quality.serial, session.camera_quality.model};
 }
 
 void read_control(const SettingsDocument& document, TableReader& table, std::string& socket) {

@@ -16,6 +16,7 @@ struct CameraStatus {
   std::string words;    ///< "well", "no signal"
   bool counts = false;  ///< fields are numbered by the camera
   bool stamps = false;  ///< times are the camera's own
+  std::string doubt;    ///< what the calibration leaves open of it; empty: nothing, or none is open
   /// What was counted, by the names of docs/cameras.md.
   std::vector<std::pair<const char*, std::int64_t>> counters;
 };
@@ -32,10 +33,13 @@ class Camera {
   virtual void look_after() = 0;
   /// What was wrong at the last start.
   [[nodiscard]] virtual std::string message() const = 0;
+  /// What the calibration leaves open of the camera that was opened last; of the thread that
+  /// starts it.
+  [[nodiscard]] virtual std::string doubt() const = 0;
   /// From one field to the next, and fields that come at once; valid once started.
   [[nodiscard]] virtual core::FieldTime span() const = 0;
   [[nodiscard]] virtual std::int32_t fields_at_once() const = 0;
-  /// Any thread.
+  /// But for its doubt. Any thread.
   [[nodiscard]] virtual CameraStatus status() const = 0;
 };
 

@@ -1,11 +1,14 @@
 #include "board/visionbox/camera_settings.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <arpa/inet.h>
+
+#include "drivers/aravis/grey_format.h"
 
 namespace tubesight::board {
 namespace {
@@ -20,8 +23,12 @@ constexpr std::array<std::string_view, 2> kStamps = {"driver", "arrival"};
 constexpr drivers::NumberRange kFieldsPerS{1.0, 1000.0, " a second"};
 constexpr drivers::NumberRange kExposure{0.001, 1000.0, " ms"};
 
-constexpr std::array<std::string_view, 7> kMonoFormats = {
-    "Mono8", "Mono10", "Mono12", "Mono10Packed", "Mono12Packed", "Mono10p", "Mono12p"};
+constexpr auto kMonoFormats = [] {
+  std::array<std::string_view, drivers::aravis::kGreyFormats.size()> names;
+  std::ranges::transform(drivers::aravis::kGreyFormats, names.begin(),
+                         &drivers::aravis::GreyFormat::name);
+  return names;
+}();
 constexpr drivers::WholeRange kSensor{0, 65'535};
 constexpr drivers::WholeRange kBinning{1, 8};
 constexpr drivers::NumberRange kGain{0.0, 1000.0, ""};

@@ -50,6 +50,7 @@ void CameraSource::keep() {
   while (!stopping_) {
     if (phase_ == Phase::kOpen) {
       camera_->look_after();
+      tell_state();
       pause(waits_.look);
       continue;
     }
@@ -79,6 +80,15 @@ bool CameraSource::open() {
   }
   told_.clear();
   tell_("camera: opened");
+  const std::string doubt = camera_->doubt();
+  if (!doubt.empty() && doubt != this->doubt()) {
+    tell_("camera: " + doubt);
+  }
+  {
+    const std::scoped_lock lock(doubt_mutex_);
+    doubt_ = doubt;
+  }
+  state_told_ = false;
   span_ns_ = camera_->span().count();
   fields_at_once_ = camera_->fields_at_once();
   delivered_ = false;
@@ -96,6 +106,24 @@ void CameraSource::tell_once(const std::string& line) {
 }
 
 void CameraSource::pause(milliseconds longest) { stirred_.wait_until(monotonic_now() + longest); }
+
+/// A trouble that stays, while fields come: one look may find a single field's.
+void CameraSource::tell_state() {
+  constexpr std::int32_t kLooks = 4;
+  const CameraStatus now = camera_->status();
+  state_looks_ = now.words == state_ ? state_looks_ + 1 : 1;
+  state_ = now.words;
+  if (state_looks_ != kLooks || (now.well && !state_told_)) {
+    return;
+  }
+  tell_("camera: " + now.words + (now.well ? " again" : ""));
+  state_told_ = !now.well;
+}
+
+std::string CameraSource::doubt() const {
+  const std::scoped_lock lock(doubt_mutex_);
+  return doubt_;
+}
 
 SourceState CameraSource::state() const {
   if (phase_ == Phase::kOpen) {

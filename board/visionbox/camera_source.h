@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <thread>
 
@@ -62,6 +63,9 @@ class CameraSource final : public FieldSource {
   [[nodiscard]] std::int64_t failures() const override { return failures_; }
   [[nodiscard]] std::int64_t made_late() const override { return 0; }
 
+  /// What the calibration leaves open of the camera; empty: nothing. Any thread.
+  [[nodiscard]] std::string doubt() const;
+
   /// A field is due when it would be here after the shortest way that one of its kind took since
   /// the camera was opened.
   [[nodiscard]] MonotonicTime due() const override { return due_; }
@@ -78,6 +82,7 @@ class CameraSource final : public FieldSource {
   void keep();
   bool open();
   void tell_once(const std::string& line);
+  void tell_state();
   void pause(std::chrono::milliseconds longest);
   void measure(const core::Field& field);
 
@@ -97,6 +102,11 @@ class CameraSource final : public FieldSource {
   std::atomic<std::int32_t> fields_at_once_{1};
   std::atomic<std::int64_t> passes_{0};
   std::atomic<std::int64_t> failures_{0};
+  std::string state_;             ///< words of the camera at the last look; of the source's thread
+  std::int32_t state_looks_ = 0;  ///< in a row with these words
+  bool state_told_ = false;       ///< a trouble was told that is not over
+  mutable std::mutex doubt_mutex_;
+  std::string doubt_;
   std::string told_;  ///< the last trouble that was told; of the source's thread
   // Of the tracking thread.
   bool started_ = false;

@@ -42,7 +42,11 @@ class CameraWorld final : public WatchedWorld {
   [[nodiscard]] hal::Dimmer* dimmer() override { return keeper_ ? &*keeper_ : nullptr; }
   [[nodiscard]] hal::RobotLink* scripted_robot() override { return nullptr; }
   [[nodiscard]] hal::OperatorStation& station() override { return *station_; }
-  [[nodiscard]] std::optional<CameraStatus> camera() const override { return camera_->status(); }
+  [[nodiscard]] std::optional<CameraStatus> camera() const override {
+    CameraStatus status = camera_->status();
+    status.doubt = source_.doubt();
+    return status;
+  }
   [[nodiscard]] const hal::LampHistory* lamp_history() const override { return lamp(); }
   [[nodiscard]] LampKeeper* lamp() override { return keeper_ ? &*keeper_ : nullptr; }
   [[nodiscard]] const LampKeeper* lamp() const override { return keeper_ ? &*keeper_ : nullptr; }

@@ -20,6 +20,7 @@ CameraStatus status_of(const drivers::CameraReport& report) {
                      {"flagged", counters.flagged},
                      {"cut_short", counters.cut_short},
                      {"without_signal", counters.without_signal},
+                     {"other_standard", counters.other_standard},
                      {"noise", counters.noise},
                      {"blank", counters.blank},
                      {"black", counters.black},

@@ -13,12 +13,6 @@ using core::Result;
 using core::Unexpected;
 using std::chrono::milliseconds;
 
-/// Without any picture for so long the camera is taken for lost; the library says so after 5 s.
-constexpr FieldTime kSilence = std::chrono::seconds(1);
-/// The same before the first one: a camera may have to settle.
-constexpr FieldTime kFirstSilence = std::chrono::seconds(5);
-/// The same of a slow camera, in fields.
-constexpr std::int32_t kSilentFields = 20;
 /// What the buffers bridge while nobody takes any.
 constexpr FieldTime kBridged = milliseconds(250);
 constexpr std::int32_t kFewestBuffers = 8;
@@ -33,7 +27,7 @@ std::int32_t buffers_at(FieldTime frame) {
 
 AravisFrameGrabber::AravisFrameGrabber(const AravisSettings& settings, const hal::Clock& clock,
                                        aravis::Library& library)
-    : settings_(settings), clock_(&clock), library_(&library) {}
+    : settings_(settings), clock_(&clock), library_(&library), identity_(settings.calibrated) {}
 
 Result<void> AravisFrameGrabber::start() {
   if (started_) {
@@ -55,9 +49,7 @@ Result<void> AravisFrameGrabber::start() {
   counted_ = {};
   fields_left_ = 0;
   failed_ = false;
-  start_ = clock_->now();
-  last_picture_ = start_;
-  settled_ = false;
+  silence_.begin(clock_->now());
   started_ = true;
   report_.trouble = AravisTrouble::kNone;
   publish();
@@ -70,10 +62,9 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
     return Unexpected(opened.error());
   }
   device_ = *opened;
-  const std::string serial = device_->serial();
-  if (!settings_.serial.empty() && serial != settings_.serial) {
-    message = (serial.empty() ? "says no serial number" : "has the serial number " + serial) +
-              ", expected " + settings_.serial + ", the one that was calibrated";
+  const CameraIdentity found{device_->serial(), device_->maker_and_model()};
+  message = identity_.refusal(found);
+  if (!message.empty()) {
     return Unexpected(Error::kUnsupported);
   }
   agreed_ = {};
@@ -91,6 +82,7 @@ Result<void> AravisFrameGrabber::open(std::string& message) {
     message = "does not start to stream: " + why;
     return Unexpected(Error::kIo);
   }
+  identity_.keep(found);
   return {};
 }
 
@@ -151,13 +143,12 @@ Result<void> AravisFrameGrabber::next_picture(milliseconds timeout) {
       return break_off(AravisTrouble::kControlLost, Error::kDisconnected);
     case aravis::Taken::kPicture: break;
   }
-  last_picture_ = clock_->now();
-  settled_ = true;
+  silence_.broken(clock_->now());
   held_ = picture.buffer;
   fields_left_ = fields_a_picture();
   next_ = judge_.first_field(picture);
   // A packet size that does not come through: pictures begin and none is ever whole.
-  if (!judge_.had_complete() && last_picture_ - start_ >= kFirstSilence) {
+  if (!judge_.had_complete() && silence_.past_settling(silence_.last())) {
     device_->give_back(held_);
     fields_left_ = 0;
     return break_off(AravisTrouble::kIncomplete, Error::kIo);
@@ -166,9 +157,7 @@ Result<void> AravisFrameGrabber::next_picture(milliseconds timeout) {
 }
 
 Result<void> AravisFrameGrabber::nothing_came() {
-  const FieldTime longest =
-      std::max<FieldTime>(settled_ ? kSilence : kFirstSilence, kSilentFields * agreed_.span);
-  if (clock_->now() - last_picture_ < longest) {
+  if (!silence_.too_long(clock_->now(), agreed_.span)) {
     return Unexpected(Error::kTimeout);
   }
   ++report_.counters.silences;
@@ -203,6 +192,7 @@ core::FieldView AravisFrameGrabber::view_of(core::Parity parity) {
 hal::FieldLease AravisFrameGrabber::lend() {
   core::Field field = next_;
   field.pixels = view_of(field.parity);
+  judge_.look_at_picture(field);
   if (--fields_left_ > 0) {
     next_ = judge_.second_field();
   }

@@ -13,6 +13,8 @@
 #include "drivers/aravis/camera_setup.h"
 #include "drivers/aravis/library.h"
 #include "drivers/aravis/picture_judge.h"
+#include "drivers/camera/camera_identity.h"
+#include "drivers/camera/silence.h"
 #include "hal/clock.h"
 #include "hal/frame_grabber.h"
 
@@ -25,10 +27,11 @@ namespace tubesight::drivers {
 /// field are taken out when it is lent. A picture may hold both fields of an interlaced frame, line
 /// by line: so converters of analogue video deliver.
 ///
-/// What cannot be believed is a damaged field: what is incomplete, of another size, what comes
-/// twice or with a time that cannot be, and the first ones after a start. What ends the stream ends
-/// it for good: grab_for() says the error until stop() and start(), which take seconds when the
-/// camera is gone. The library tells a loss 5 s late: a time-out of our own is what finds it.
+/// What cannot be believed is a damaged field: what is incomplete, of another size, snow, a picture
+/// of one grey, what comes twice or with a time that cannot be, and the first ones after a start.
+/// What ends the stream ends it for good: grab_for() says the error until stop() and start(), which
+/// take seconds when the camera is gone. The library tells a loss 5 s late: a time-out of our own
+/// is what finds it.
 ///
 /// start(), stop() and look_after() belong to one thread, grab_for() and give_back() to another or
 /// the same; between the two kinds whoever owns the grabber hands it over. Those two allocate
@@ -57,6 +60,10 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   /// Lines of the last start(), for a person.
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 
+  /// What the calibration leaves open of the camera that was opened last; of the thread that
+  /// starts.
+  [[nodiscard]] std::string doubt() const { return identity_.doubt(); }
+
   /// From one field to the next, and fields that come at once; valid once started.
   [[nodiscard]] core::FieldTime span() const { return agreed_.span; }
   [[nodiscard]] std::int32_t fields_a_picture() const { return agreed_.pair ? 2 : 1; }
@@ -81,6 +88,7 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   std::vector<std::string> messages_;
 
   // Of the thread that starts.
+  IdentityWatch identity_;
   aravis::Device* device_ = nullptr;
   aravis::StreamCounts counted_;    ///< of this stream, so far
   bool safe_packets_ = false;       ///< the next start does not negotiate them
@@ -94,12 +102,10 @@ class AravisFrameGrabber final : public hal::FrameGrabber {
   bool lent_ = false;
   bool failed_ = false;
   core::Error failure_ = core::Error::kNotReady;
-  std::int32_t held_ = 0;            ///< the buffer in our hands
-  std::int32_t fields_left_ = 0;     ///< of it, not lent yet
-  core::Field next_;                 ///< the first of those, but for its pixels
-  core::FieldTime last_picture_{0};  ///< when it arrived; before the first one the start
-  core::FieldTime start_{0};
-  bool settled_ = false;  ///< there was one since the start
+  std::int32_t held_ = 0;         ///< the buffer in our hands
+  std::int32_t fields_left_ = 0;  ///< of it, not lent yet
+  core::Field next_;              ///< the first of those, but for its pixels
+  Silence silence_;
 
   std::atomic<std::int64_t> underruns_{0};
   std::atomic<std::int64_t> resent_packets_{0};

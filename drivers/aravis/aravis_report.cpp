@@ -8,6 +8,8 @@ const char* words_of(AravisTrouble trouble) {
     case AravisTrouble::kNotOpen: return "not open";
     case AravisTrouble::kSettling: return "settling";
     case AravisTrouble::kIncomplete: return "packets get lost";
+    case AravisTrouble::kNoise: return "snow";
+    case AravisTrouble::kBlank: return "a picture of one grey";
     case AravisTrouble::kOtherSize: return "pictures of another size";
     case AravisTrouble::kStamps: return "times that cannot be";
     case AravisTrouble::kRepeated: return "the same picture twice";

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/settings.h"
+#include "drivers/camera/camera_identity.h"
 
 namespace tubesight::drivers {
 
@@ -13,7 +14,7 @@ struct AravisSettings {
   /// "address:" and the camera's address, or "serial:" and its serial number: then it is looked for
   /// by a broadcast on all networks at each opening.
   std::string device;
-  std::string serial;          ///< of the camera that was calibrated; empty: any
+  CameraIdentity calibrated;   ///< what the calibration says of its camera
   std::string format;          ///< "Mono8" ...; empty: the best that there is
   std::int32_t left_px = 0;    ///< of the region on the sensor
   std::int32_t top_px = 0;     ///< of the region on the sensor

@@ -93,7 +93,7 @@ Result<void> Setup::format() {
   }
   std::string wanted = settings_->format;
   if (wanted.empty()) {
-    for (const GreyFormat& format : grey_formats()) {
+    for (const GreyFormat& format : kGreyFormats) {
       const bool whole = settings_->width_px % format.group_px == 0;
       if (whole && std::ranges::find(offered, format.name) != offered.end()) {
         wanted = format.name;

@@ -3,17 +3,6 @@
 namespace tubesight::drivers::aravis {
 namespace {
 
-// Codes of the GenICam pixel format naming convention.
-constexpr std::array<GreyFormat, 7> kFormats{{
-    {"Mono8", 0x01080001, GreyLayout::kBytes, 1, 1},
-    {"Mono10p", 0x010a0046, GreyLayout::kTenBitRun, 4, 5},
-    {"Mono12p", 0x010c0047, GreyLayout::kTwelveBitRun, 2, 3},
-    {"Mono10Packed", 0x010c0004, GreyLayout::kUpperBytes, 2, 3},
-    {"Mono12Packed", 0x010c0006, GreyLayout::kUpperBytes, 2, 3},
-    {"Mono10", 0x01100003, GreyLayout::kTenBits, 1, 2},
-    {"Mono12", 0x01100005, GreyLayout::kTwelveBits, 1, 2},
-}};
-
 /// The upper 8 of `bits` bits in two bytes. More would be another format's: such a value is as
 /// bright as it gets.
 template <unsigned bits>
@@ -54,10 +43,8 @@ void take_ten_bits(const std::byte* from, std::int32_t width_px, std::uint8_t* t
 
 }  // namespace
 
-const std::array<GreyFormat, 7>& grey_formats() { return kFormats; }
-
 std::optional<GreyFormat> grey_format_named(std::string_view name) {
-  for (const GreyFormat& format : kFormats) {
+  for (const GreyFormat& format : kGreyFormats) {
     if (format.name == name) {
       return format;
     }

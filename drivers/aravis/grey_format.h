@@ -36,7 +36,16 @@ struct GreyFormat {
 
 /// All that the driver takes, the best first: what is lent costs nothing, and then what needs least
 /// of the network.
-[[nodiscard]] const std::array<GreyFormat, 7>& grey_formats();
+inline constexpr std::array<GreyFormat, 7> kGreyFormats{{
+    // Codes of the GenICam pixel format naming convention.
+    {"Mono8", 0x01080001, GreyLayout::kBytes, 1, 1},
+    {"Mono10p", 0x010a0046, GreyLayout::kTenBitRun, 4, 5},
+    {"Mono12p", 0x010c0047, GreyLayout::kTwelveBitRun, 2, 3},
+    {"Mono10Packed", 0x010c0004, GreyLayout::kUpperBytes, 2, 3},
+    {"Mono12Packed", 0x010c0006, GreyLayout::kUpperBytes, 2, 3},
+    {"Mono10", 0x01100003, GreyLayout::kTenBits, 1, 2},
+    {"Mono12", 0x01100005, GreyLayout::kTwelveBits, 1, 2},
+}};
 
 [[nodiscard]] std::optional<GreyFormat> grey_format_named(std::string_view name);
 

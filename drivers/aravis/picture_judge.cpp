@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "drivers/camera/picture_look.h"
+
 namespace tubesight::drivers::aravis {
 namespace {
 
@@ -108,6 +110,23 @@ core::Field PictureJudge::second_field() const {
   field.number += 1;
   field.mid_exposure += agreed_.span;
   return field;
+}
+
+void PictureJudge::look_at_picture(core::Field& field) {
+  AravisCounters& counters = report_->counters;
+  const auto damage = [&](AravisTrouble trouble, std::int64_t& counter) {
+    ++counter;
+    field.status = FieldStatus::kDamaged;
+    if (report_->trouble == AravisTrouble::kNone) {
+      report_->trouble = trouble;
+    }
+  };
+  switch (look_at(field.pixels)) {
+    case Look::kPicture: return;
+    case Look::kNoise: damage(AravisTrouble::kNoise, counters.noise); return;
+    case Look::kBlank: damage(AravisTrouble::kBlank, counters.blank); return;
+    case Look::kBlack: ++counters.black; return;  // the session says that it is dark
+  }
 }
 
 }  // namespace tubesight::drivers::aravis

@@ -27,6 +27,10 @@ class PictureJudge {
   /// The other field of that picture.
   [[nodiscard]] core::Field second_field() const;
 
+  /// A glance at the pixels: makes the field a damaged one where no camera made them. Converters of
+  /// analogue video go on delivering when they have no signal.
+  void look_at_picture(core::Field& field);
+
   /// Whether there was a complete picture since the beginning.
   [[nodiscard]] bool had_complete() const { return had_complete_; }
 

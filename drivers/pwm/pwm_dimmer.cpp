@@ -1,15 +1,15 @@
 #include "drivers/pwm/pwm_dimmer.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdlib>
 #include <cstring>
-#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace tubesight::drivers {
@@ -23,49 +23,16 @@ using core::Unexpected;
 constexpr int kWaits = 50;
 constexpr int kWait_ms = 10;
 
-/// 0 or -errno.
-int write_file(const std::string& path, const std::string& value) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor < 0) {
-    return -errno;
-  }
-  const std::string line = value + "\n";
-  const ssize_t written = write(descriptor, line.data(), line.size());
-  const int status = written == static_cast<ssize_t>(line.size()) ? 0 : -errno;
-  close(descriptor);
-  return status;
-}
-
-std::int64_t read_number(const std::string& path) {
-  std::array<char, 32> text{};
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  std::int64_t value = -1;
-  if (descriptor >= 0) {
-    const ssize_t bytes = read(descriptor, text.data(), text.size());
-    std::from_chars(text.data(), text.data() + (bytes > 0 ? bytes : 0), value);
-    close(descriptor);
-  }
-  return value;
-}
-
 /// A chip without polarity has no such file: its outputs are as usual.
-bool usual_polarity(const std::string& channel) {
-  constexpr std::string_view kUsual = "normal";
-  std::array<char, kUsual.size()> text{};
-  const int descriptor = open((channel + "/polarity").c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) {
-    return true;
-  }
-  const ssize_t bytes = read(descriptor, text.data(), text.size());
-  close(descriptor);
-  return bytes == static_cast<ssize_t>(text.size()) &&
-         std::string_view(text.data(), text.size()) == kUsual;
+bool usual_polarity(PwmFiles& files, const std::string& channel) {
+  return access((channel + "/polarity").c_str(), F_OK) != 0 ||
+         files.read(channel + "/polarity") == "normal";
 }
 
 }  // namespace
 
-PwmDimmer::PwmDimmer(PwmSettings settings, std::string root)
-    : settings_(std::move(settings)), root_(std::move(root)) {}
+PwmDimmer::PwmDimmer(PwmSettings settings, std::string root, PwmFiles& files)
+    : settings_(std::move(settings)), root_(std::move(root)), files_(&files) {}
 
 Result<void> PwmDimmer::refuse(const std::string& what) {
   message_ =
@@ -74,7 +41,7 @@ Result<void> PwmDimmer::refuse(const std::string& what) {
 }
 
 Result<void> PwmDimmer::put(const char* file, const std::string& value) {
-  const int status = write_file(channel_ + "/" + file, value);
+  const int status = files_->write(channel_ + "/" + file, value);
   return status == 0 ? Result<void>()
                      : refuse(std::string(file) + " = " + value + ": " + std::strerror(-status));
 }
@@ -88,14 +55,14 @@ Result<void> PwmDimmer::open_channel() {
     }
     return refuse("there is no such chip, expected one of: " + (there.empty() ? "none is" : there));
   }
-  const std::int64_t channels = read_number(chip + "/npwm");
+  const std::int64_t channels = number_in(*files_, chip + "/npwm");
   if (settings_.channel < 0 || settings_.channel >= channels) {
     return refuse("the chip has " + std::to_string(channels) + " channels");
   }
   channel_ = chip + "/pwm" + std::to_string(settings_.channel);
   const std::string duty = channel_ + "/duty_cycle";
   if (access(channel_.c_str(), F_OK) != 0) {
-    if (const int status = write_file(chip + "/export", std::to_string(settings_.channel));
+    if (const int status = files_->write(chip + "/export", std::to_string(settings_.channel));
         status != 0) {
       return refuse(status == -EBUSY
                         ? "is used by another driver of the kernel, expected it free"
@@ -111,6 +78,66 @@ Result<void> PwmDimmer::open_channel() {
                       ", expected it writable by the box's user");
 }
 
+/// Nothing is written before the channel is ours.
+Result<void> PwmDimmer::take_channel() {
+  duty_ = open((channel_ + "/duty_cycle").c_str(), O_WRONLY | O_CLOEXEC);
+  if (duty_ < 0) {
+    return refuse(std::string("duty_cycle: ") + std::strerror(errno));
+  }
+  return flock(duty_, LOCK_EX | LOCK_NB) == 0
+             ? Result<void>()
+             : refuse("is busy: another box or lamp has it, expected it free");
+}
+
+/// A channel that is left at rest has no light of ours; an enabled one is dark at one end of its
+/// pulse, by its polarity.
+Result<void> PwmDimmer::set_period(std::int64_t old_period_ns) {
+  const bool runs = number_in(*files_, channel_ + "/enable") == 1;
+  const std::string period = std::to_string(period_ns_);
+  if (!runs || old_period_ns <= 0 || !settings_.inverted) {
+    TUBESIGHT_TRY(put("duty_cycle", "0"));
+    return put("period", period);
+  }
+  // The kernel takes no pulse that is longer than its period: the nearest to dark that it takes on
+  // the way. What lies between is over at the end of a period.
+  TUBESIGHT_TRY(put("duty_cycle", std::to_string(std::min(period_ns_, old_period_ns))));
+  return put("period", period);
+}
+
+/// Polarity can be changed at rest only, and rest is dark for no lamp with certainty: as shortly as
+/// may be, with dark on both sides of it.
+Result<void> PwmDimmer::turn_over() {
+  const std::int64_t old_period_ns = number_in(*files_, channel_ + "/period");
+  if (number_in(*files_, channel_ + "/enable") == 1) {
+    TUBESIGHT_TRY(put("duty_cycle", settings_.inverted ? "0" : std::to_string(old_period_ns)));
+    TUBESIGHT_TRY(put("enable", "0"));
+  }
+  static_cast<void>(files_->write(channel_ + "/polarity", "normal"));
+  return usual_polarity(*files_, channel_)
+             ? Result<void>()
+             : refuse("polarity is not normal, expected it so: dark would be light");
+}
+
+/// A channel that a box left at dark is taken over without a flash.
+Result<void> PwmDimmer::make_dark() {
+  if (!usual_polarity(*files_, channel_)) {
+    TUBESIGHT_TRY(turn_over());
+  }
+  const std::int64_t old_period_ns = number_in(*files_, channel_ + "/period");
+  if (old_period_ns != period_ns_) {
+    TUBESIGHT_TRY(set_period(old_period_ns));
+  }
+  const std::int64_t kept = number_in(*files_, channel_ + "/period");
+  constexpr std::int64_t kParts = 100;  // a chip may round to its clock, by 1 %
+  if (kept < period_ns_ - period_ns_ / kParts || kept > period_ns_ + period_ns_ / kParts) {
+    return refuse("period is " + std::to_string(kept) + " ns, expected " +
+                  std::to_string(period_ns_));
+  }
+  period_ns_ = kept;
+  TUBESIGHT_TRY(put("duty_cycle", settings_.inverted ? std::to_string(kept) : "0"));
+  return put("enable", "1");
+}
+
 Result<void> PwmDimmer::start() {
   if (duty_ >= 0) {
     return Unexpected(Error::kNotReady);
@@ -119,31 +146,16 @@ Result<void> PwmDimmer::start() {
   TUBESIGHT_TRY(open_channel());
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   period_ns_ = kSecond_ns / settings_.frequency_hz;
-  const std::string period = std::to_string(period_ns_);
-  // A channel that a box left at dark is taken over without a flash. Otherwise a period must not be
-  // shorter than the pulse in it, whatever somebody left there, and polarity can be changed at rest
-  // only; a chip without one keeps the usual.
-  if (read_number(channel_ + "/period") != period_ns_ || read_number(channel_ + "/enable") != 1 ||
-      !usual_polarity(channel_)) {
-    TUBESIGHT_TRY(put("duty_cycle", "0"));
-    TUBESIGHT_TRY(put("enable", "0"));
-    static_cast<void>(write_file(channel_ + "/polarity", "normal"));
-    TUBESIGHT_TRY(put("period", period));
-  }
-  if (!usual_polarity(channel_)) {
-    return refuse("polarity is not normal, expected it so: dark would be light");
-  }
-  const std::int64_t kept = read_number(channel_ + "/period");
-  constexpr std::int64_t kParts = 100;  // a chip may round to its clock, by 1 %
-  if (kept < period_ns_ - period_ns_ / kParts || kept > period_ns_ + period_ns_ / kParts) {
-    return refuse("period is " + std::to_string(kept) + " ns, expected " + period);
-  }
-  period_ns_ = kept;
-  TUBESIGHT_TRY(put("duty_cycle", settings_.inverted ? std::to_string(kept) : "0"));
-  TUBESIGHT_TRY(put("enable", "1"));
-  duty_ = open((channel_ + "/duty_cycle").c_str(), O_WRONLY | O_CLOEXEC);
   level_permille_ = 0;
-  return duty_ >= 0 ? Result<void>() : refuse(std::string("duty_cycle: ") + std::strerror(errno));
+  auto ready = take_channel();
+  if (ready) {
+    ready = make_dark();
+  }
+  if (!ready && duty_ >= 0) {
+    close(duty_);
+    duty_ = -1;
+  }
+  return ready;
 }
 
 void PwmDimmer::stop() {

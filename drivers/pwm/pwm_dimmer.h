@@ -4,6 +4,7 @@
 #include <string>
 
 #include "drivers/pwm/pwm_chips.h"
+#include "drivers/pwm/pwm_files.h"
 #include "hal/dimmer.h"
 
 namespace tubesight::drivers {
@@ -22,11 +23,14 @@ struct PwmSettings {
 /// but a program started after it (the service manager's) can end that. An inverted lamp is
 /// inverted in the times and not by the chip's polarity: a chip that is switched off lets its
 /// output fall, where that lamp would shine in full. For the same reason the channel stays enabled
-/// and exported, at dark, after stop().
+/// and exported, at dark, after stop(). Whatever somebody left there, the way to a start is as dark
+/// as the kernel lets it be. Of two programs, or two lamps of one, the second is refused the
+/// channel.
 class PwmDimmer final : public hal::Dimmer {
  public:
-  /// `root` is kPwmClass but for tests.
-  explicit PwmDimmer(PwmSettings settings, std::string root = kPwmClass);
+  /// `root` is kPwmClass and `files` the system's but for tests.
+  explicit PwmDimmer(PwmSettings settings, std::string root = kPwmClass,
+                     PwmFiles& files = system_pwm_files());
   PwmDimmer(const PwmDimmer&) = delete;
   PwmDimmer& operator=(const PwmDimmer&) = delete;
   ~PwmDimmer() { stop(); }
@@ -44,11 +48,16 @@ class PwmDimmer final : public hal::Dimmer {
  private:
   core::Result<void> refuse(const std::string& what);
   core::Result<void> open_channel();
+  core::Result<void> take_channel();
+  core::Result<void> make_dark();
+  core::Result<void> set_period(std::int64_t old_period_ns);
+  core::Result<void> turn_over();
   core::Result<void> put(const char* file, const std::string& value);
   [[nodiscard]] int write_level(std::int32_t permille) const;
 
   PwmSettings settings_;
   std::string root_;
+  PwmFiles* files_;
   std::string message_;
   std::string channel_;  ///< its folder
   std::int64_t period_ns_ = 0;

@@ -238,10 +238,16 @@ void read_verification(TableReader& table, core::VerificationSettings& verificat
   read_keys(table, kVerificationKeys, verification);
 }
 
+void read_camera_device(TableReader& table, CalibrationQuality& quality) {
+  quality.serial.clear();
+  quality.model.clear();
+  table.optional_text("serial", quality.serial);
+  table.optional_text("model", quality.model);
+}
+
 void read_quality(TableReader& table, CalibrationQuality& quality) {
   table.text("id", quality.id);
-  quality.serial.clear();
-  table.optional_text("serial", quality.serial);
+  read_camera_device(table, quality);
   for (const std::string_view key : {"made_at", "sigma", "correlation", "verdict"}) {
     table.ignore(key);
   }

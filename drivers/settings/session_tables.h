@@ -41,6 +41,7 @@ void read_verification(TableReader& table, core::VerificationSettings& verificat
 struct CalibrationQuality {
   std::string id;          ///< empty when there is no table
   std::string serial;      ///< of the camera that was calibrated; empty: it is not said
+  std::string model;       ///< the same
   bool has_sigma = false;  ///< `sigma` is there as six numbers, none below zero
   /// One standard deviation each: of focal_length_mm, horizontal_scale, center_px (2),
   /// distortion_per_mm2, distortion2_per_mm4; or of position_mm (3), rotation_deg (3).
@@ -49,8 +50,11 @@ struct CalibrationQuality {
   std::array<double, 36> correlation{};
 };
 
-/// `[camera_quality]`, `[tool_quality]`, `[base_quality]`: `id` must be there, `serial` may be; the
-/// rest is taken where it has the form above and else left out.
+/// Which camera it was: `serial` and `model`, where they stand.
+void read_camera_device(TableReader& table, CalibrationQuality& quality);
+
+/// `[camera_quality]`, `[tool_quality]`, `[base_quality]`: `id` must be there, `serial` and
+/// `model` may be; the rest is taken where it has the form above and else left out.
 void read_quality(TableReader& table, CalibrationQuality& quality);
 
 /// `[base]`: T_sheet_base, checked only.

@@ -12,7 +12,8 @@
 namespace tubesight::drivers {
 namespace {
 
-constexpr std::array<std::string_view, 3> kTargetTables = {"camera", "target", "view"};
+constexpr std::array<std::string_view, 4> kTargetTables = {"camera", "camera_quality", "target",
+                                                           "view"};
 constexpr std::array<std::string_view, 2> kLatticeWords = {"square", "staggered"};
 constexpr std::array<std::string_view, 2> kDotWords = {"bright", "dark"};
 
@@ -102,6 +103,14 @@ core::Result<void> load_target(TextFiles& files, const std::string& path, Target
   document.load(files, path, kTargetTables);
   read_table(document, "camera", true,
              [&](TableReader& table) { read_camera_sensor(table, file.camera); });
+  // What stands beside the table of a camera that was calibrated before; of it the camera's name
+  // alone is what is known beforehand.
+  read_table(document, "camera_quality", false, [&](TableReader& table) {
+    read_camera_device(table, file.device);
+    for (const std::string_view key : {"id", "made_at", "sigma", "correlation", "verdict"}) {
+      table.ignore(key);
+    }
+  });
   read_table(document, "target", true,
              [&](TableReader& table) { read_target(table, file.target); });
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();

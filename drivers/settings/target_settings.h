@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/base/settings.h"
 #include "drivers/files/messages.h"
+#include "drivers/settings/session_tables.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
@@ -36,6 +37,7 @@ struct ViewSettings {
 /// A calibration target's file.
 struct TargetFile {
   core::CameraSettings camera;  ///< what is known beforehand: size, scan, cells, columns
+  CalibrationQuality device;    ///< which camera it is: serial and model, where they are said
   TargetSettings target;
   std::vector<ViewSettings> views;
 };

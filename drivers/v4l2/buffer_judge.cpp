@@ -34,6 +34,10 @@ void BufferJudge::begin(core::Scan scan, const AgreedFormat& agreed, FieldTime e
   stamps_.begin({agreed.span, exposure > FieldTime{0} ? exposure : agreed.span,
                  agreed.kind == BufferKind::kPair ? 2 : 1},
                 now);
+  // A rate that the settings say otherwise is none of a standard.
+  const FieldTime usual = field_time_of(agreed.standard);
+  const bool paced = std::chrono::abs(agreed.span - usual) < usual / 100;
+  pace_.begin(paced ? agreed.standard : VideoStandard::kNone);
 }
 
 /// What is in doubt is not used; the first doubt is the one that is told.
@@ -76,12 +80,12 @@ Parity BufferJudge::parity_of(const v4l2_buffer& buffer) {
 }
 
 core::Field BufferJudge::first_field(const v4l2_buffer& buffer, const Arrival& arrival,
-                                     bool no_signal) {
+                                     Signal signal) {
   CameraCounters& counters = report_->counters;
   ++counters.buffers;
   report_->trouble = CameraTrouble::kNone;
   first_ = {};
-  if (no_signal) {
+  if (signal == Signal::kNone) {
     doubt(first_, CameraTrouble::kNoSignal, counters.without_signal);
   }
   if ((buffer.flags & V4L2_BUF_FLAG_ERROR) != 0) {
@@ -92,6 +96,9 @@ core::Field BufferJudge::first_field(const v4l2_buffer& buffer, const Arrival& a
   first_.parity = parity_of(buffer);
   count(buffer);
   judge_time(buffer, arrival);
+  if (signal == Signal::kOtherStandard || pace_.other()) {
+    doubt(first_, CameraTrouble::kStandard, counters.other_standard);
+  }
   return first_;
 }
 
@@ -124,6 +131,8 @@ void BufferJudge::judge_time(const v4l2_buffer& buffer, const Arrival& arrival) 
   report_->counters.without_stamp += judged.by_arrival ? 1 : 0;
   if (judged.wrong || (judged.by_arrival && arrival.late)) {
     doubt(first_, CameraTrouble::kStamps, report_->counters.wrong_stamps);
+  } else {
+    pace_.take(first_.mid_exposure, first_.sequence);
   }
   report_->stamps = !judged.by_arrival && !judged.wrong;
 }

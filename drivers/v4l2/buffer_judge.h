@@ -4,11 +4,13 @@
 
 #include "core/base/field.h"
 #include "core/base/settings.h"
+#include "drivers/camera/picture_look.h"
 #include "drivers/v4l2/camera_report.h"
 #include "drivers/v4l2/camera_setup.h"
-#include "drivers/v4l2/picture_look.h"
 #include "drivers/v4l2/sequence_counter.h"
+#include "drivers/v4l2/signal.h"
 #include "drivers/v4l2/stamp_judge.h"
+#include "drivers/v4l2/video_standard.h"
 
 struct v4l2_buffer;
 
@@ -31,10 +33,10 @@ class BufferJudge {
     bool late = false;  ///< it may have lain there for long
   };
 
-  /// A buffer that arrived: its first field, but for the pixels. `no_signal`: the input says that
-  /// none came in.
+  /// A buffer that arrived: its first field, but for the pixels. `signal`: what the driver says of
+  /// it.
   [[nodiscard]] core::Field first_field(const ::v4l2_buffer& buffer, const Arrival& arrival,
-                                        bool no_signal);
+                                        Signal signal);
 
   /// The other field of that buffer.
   [[nodiscard]] core::Field second_field() const;
@@ -62,6 +64,7 @@ class BufferJudge {
   AgreedFormat agreed_;
   SequenceCounter sequence_{BufferKind::kFrame};
   StampJudge stamps_;
+  StandardPace pace_;
   core::Field first_;       ///< of the last buffer
   bool odd_above_ = false;  ///< of the last buffer, a sequential one
   core::Parity last_parity_ = core::Parity::kOdd;

@@ -21,17 +21,17 @@ Result<void> refuse(Error error, std::string& message, const std::string& what) 
 
 }  // namespace
 
-Result<void> CameraDevice::open(const V4l2Settings& settings, std::string& message) {
-  const auto opened = open_all(settings, message);
+Result<void> CameraDevice::open(std::string& message) {
+  const auto opened = open_all(message);
   if (!opened) {
     close();
-    message = "camera " + settings.device + ": " + message;
+    message = "camera " + settings_.device + ": " + message;
   }
   return opened;
 }
 
-Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& message) {
-  const std::string node = find_camera(*kernel_, settings.device);
+Result<void> CameraDevice::open_all(std::string& message) {
+  const std::string node = find_camera(*kernel_, settings_.device);
   if (node.empty()) {
     std::string there;
     for (const CameraInfo& camera : list_cameras(*kernel_)) {
@@ -46,7 +46,7 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
   agreed_ = {};
-  TUBESIGHT_TRY(check(settings, node, message));
+  TUBESIGHT_TRY(check(node, message));
   // Nothing is set on a camera that another program uses: its input would be switched under it. No
   // buffers are asked for, which only the stranger is refused.
   v4l2_requestbuffers none{};
@@ -57,14 +57,11 @@ Result<void> CameraDevice::open_all(const V4l2Settings& settings, std::string& m
                   "is busy: another program takes its pictures, expected it free");
   }
   keep_input();
-  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings, agreed_, message));
+  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
-  // A driver that knows nothing of it never says that the source has changed.
-  v4l2_event_subscription change{};
-  change.type = V4L2_EVENT_SOURCE_CHANGE;
-  change.id = agreed_.input;
-  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_SUBSCRIBE_EVENT, &change));
-  return ring_.open(descriptor_, agreed_.api, agreed_.bytes, message);
+  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_.api, agreed_.bytes, message));
+  identity_.keep(found_);
+  return {};
 }
 
 /// Settings that name no input take the one found at the first start, not one that somebody has
@@ -77,8 +74,7 @@ void CameraDevice::keep_input() {
   }
 }
 
-Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string& node,
-                                 std::string& message) {
+Result<void> CameraDevice::check(const std::string& node, std::string& message) {
   v4l2_capability can{};
   if (kernel_->ioctl(descriptor_, VIDIOC_QUERYCAP, &can) != 0) {
     return refuse(Error::kUnsupported, message, "is no camera");
@@ -89,13 +85,10 @@ Result<void> CameraDevice::check(const V4l2Settings& settings, const std::string
                   "is no camera, expected one that streams pictures of one plane");
   }
   agreed_.api = *api;
-  const std::string serial = serial_of(*kernel_, node);
-  if (!settings.serial.empty() && serial != settings.serial) {
-    return refuse(Error::kUnsupported, message,
-                  (serial.empty() ? "says no serial number" : "has the serial number " + serial) +
-                      ", expected " + settings.serial + ", the one that was calibrated");
-  }
-  return {};
+  found_ = {serial_of(*kernel_, node),
+            text_of(can.driver, sizeof can.driver) + " " + text_of(can.card, sizeof can.card)};
+  const std::string wrong = identity_.refusal(found_);
+  return wrong.empty() ? Result<void>() : refuse(Error::kUnsupported, message, wrong);
 }
 
 void CameraDevice::close() {
@@ -112,11 +105,23 @@ bool CameraDevice::switched() {
          static_cast<std::uint32_t>(index) != agreed_.input;
 }
 
-bool CameraDevice::without_signal() {
+Signal CameraDevice::signal() {
   v4l2_input input{};
   input.index = agreed_.input;
-  return agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0 &&
-         says_no_signal(input.status);
+  if (agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0) {
+    if (says_no_signal(input.status)) {
+      return Signal::kNone;
+    }
+    if (says_no_standard(input.status)) {
+      return Signal::kOtherStandard;
+    }
+  }
+  if (agreed_.standard == VideoStandard::kNone) {
+    return Signal::kGood;
+  }
+  const VideoStandard sensed = sense_standard(*kernel_, descriptor_);
+  return sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
+                                                                      : Signal::kOtherStandard;
 }
 
 }  // namespace tubesight::drivers::v4l2

@@ -7,6 +7,7 @@ const char* words_of(CameraTrouble trouble) {
     case CameraTrouble::kNone: return "well";
     case CameraTrouble::kNotOpen: return "not open";
     case CameraTrouble::kNoSignal: return "no signal";
+    case CameraTrouble::kStandard: return "a signal of another standard";
     case CameraTrouble::kNoise: return "snow";
     case CameraTrouble::kBlank: return "a picture of one grey";
     case CameraTrouble::kDamaged: return "damaged pictures";

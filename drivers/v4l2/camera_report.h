@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "drivers/camera/picture_counters.h"
+
 namespace tubesight::drivers {
 
 /// What is the matter with a camera.
@@ -9,6 +11,7 @@ enum class CameraTrouble : std::uint8_t {
   kNone,
   kNotOpen,        ///< it was not opened yet, or could not be: messages() say why
   kNoSignal,       ///< it delivers, but its input says that no signal comes in
+  kStandard,       ///< the signal is of another standard than the input is set to
   kNoise,          ///< pictures are snow
   kBlank,          ///< pictures are of one grey
   kDamaged,        ///< the driver marks its pictures as damaged, or they are cut short
@@ -25,26 +28,18 @@ enum class CameraTrouble : std::uint8_t {
 [[nodiscard]] const char* words_of(CameraTrouble trouble);
 
 /// What a camera has come to since its first start; nothing is ever reset.
-struct CameraCounters {
-  std::int64_t buffers = 0;           ///< taken from the driver
-  std::int64_t lost_fields = 0;       ///< missing by the driver's counter
-  std::int64_t flagged = 0;           ///< buffers that the driver marked as damaged
-  std::int64_t cut_short = 0;         ///< buffers with less than the picture
-  std::int64_t without_signal = 0;    ///< buffers while the input said that none came in
-  std::int64_t noise = 0;             ///< pictures of snow
-  std::int64_t blank = 0;             ///< pictures of one grey that is not black
-  std::int64_t black = 0;             ///< pictures of black alone
-  std::int64_t wrong_stamps = 0;      ///< buffers whose stamp cannot be
-  std::int64_t without_stamp = 0;     ///< buffers without a stamp to go by
-  std::int64_t counter_back = 0;      ///< times that the driver's counter went back
-  std::int64_t counter_repeated = 0;  ///< buffers with the number of the one before
-  std::int64_t odd_order = 0;         ///< buffers with other fields than agreed
-  std::int64_t queue_errors = 0;      ///< buffers that the driver did not take back
-  std::int64_t dequeue_errors = 0;    ///< refusals to give one
-  std::int64_t idle_wakes = 0;        ///< times that one was announced and none was there
-  std::int64_t source_changes = 0;    ///< told by the driver, and inputs switched by others
-  std::int64_t silences = 0;          ///< times that nothing came for too long
-  std::int64_t disconnects = 0;       ///< times that the device went
+struct CameraCounters : PictureCounters {
+  std::int64_t flagged = 0;         ///< buffers that the driver marked as damaged
+  std::int64_t cut_short = 0;       ///< buffers with less than the picture
+  std::int64_t without_signal = 0;  ///< buffers while the input said that none came in
+  std::int64_t other_standard = 0;  ///< buffers of a signal of another standard
+  std::int64_t wrong_stamps = 0;    ///< buffers whose stamp cannot be
+  std::int64_t odd_order = 0;       ///< buffers with other fields than agreed
+  std::int64_t queue_errors = 0;    ///< buffers that the driver did not take back
+  std::int64_t dequeue_errors = 0;  ///< refusals to give one
+  std::int64_t idle_wakes = 0;      ///< times that one was announced and none was there
+  std::int64_t source_changes = 0;  ///< told by the driver, and inputs switched by others
+  std::int64_t disconnects = 0;     ///< times that the device went
 };
 
 /// How a camera is doing.

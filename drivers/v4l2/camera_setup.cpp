@@ -72,7 +72,9 @@ class Setup {
         message_(message) {}
 
   Result<void> choose_input();
+  void listen();
   Result<void> choose_standard();
+  Result<void> compare_signal();
   Result<void> choose_format();
   Result<void> choose_rate();
 
@@ -124,24 +126,54 @@ Result<void> Setup::choose_input() {
 }
 
 Result<void> Setup::choose_standard() {
-  if (!settings_.standard.empty()) {
-    v4l2_std_id wanted = settings_.standard == "PAL" ? V4L2_STD_PAL : V4L2_STD_NTSC;
+  // Set where it is another alone: some chips look for their signal anew each time.
+  v4l2_std_id now = 0;
+  const bool told = ask(VIDIOC_G_STD, &now) == 0 && now != 0;
+  v4l2_std_id wanted = settings_.standard == "PAL" ? V4L2_STD_PAL : V4L2_STD_NTSC;
+  if (!settings_.standard.empty() && (now & wanted) == 0) {
     if (const int status = ask(VIDIOC_S_STD, &wanted); status != 0) {
       return fail(Error::kUnsupported, "standard " + settings_.standard + ": " +
                                            std::strerror(-status) + ", expected one that it has");
     }
-  }
-  v4l2_std_id now = 0;
-  if (ask(VIDIOC_G_STD, &now) != 0 || now == 0) {
-    return settings_.standard.empty() ? Result<void>()
-                                      : fail(Error::kUnsupported, "does not keep its standard");
-  }
-  if (!settings_.standard.empty() &&
-      (now & (settings_.standard == "PAL" ? V4L2_STD_PAL : V4L2_STD_NTSC)) == 0) {
-    return fail(Error::kUnsupported, "keeps another standard than " + settings_.standard);
+    if (ask(VIDIOC_G_STD, &now) != 0 || now == 0) {
+      return fail(Error::kUnsupported, "does not keep its standard");
+    }
+    if ((now & wanted) == 0) {
+      return fail(Error::kUnsupported, "keeps another standard than " + settings_.standard);
+    }
+  } else if (!told) {
+    return {};
   }
   standard_frames_per_s_ = (now & V4L2_STD_525_60) != 0 ? 30'000.0 / 1001.0 : 25.0;
+  agreed_.standard = standard_of(now);
   return {};
+}
+
+/// A change of the source before this is seen by what is asked after it.
+void Setup::listen() {
+  // A driver that knows nothing of it never says that the source has changed.
+  v4l2_event_subscription change{};
+  change.type = V4L2_EVENT_SOURCE_CHANGE;
+  change.id = agreed_.input;
+  static_cast<void>(ask(VIDIOC_SUBSCRIBE_EVENT, &change));
+}
+
+Result<void> Setup::compare_signal() {
+  // What was told so far may be of our own choice of a standard.
+  for (std::uint32_t i = 0; i < kMostEntries; ++i) {
+    v4l2_event event{};
+    if (ask(VIDIOC_DQEVENT, &event) != 0) {
+      break;
+    }
+  }
+  const VideoStandard signal = sense_standard(kernel_, descriptor_);
+  if (agreed_.standard == VideoStandard::kNone || signal == VideoStandard::kNone ||
+      signal == agreed_.standard) {
+    return {};
+  }
+  return fail(Error::kUnsupported, std::string("gets a signal of ") + name_of(signal) +
+                                       ", expected " + name_of(agreed_.standard) +
+                                       (settings_.standard.empty() ? ", to which it is set" : ""));
 }
 
 std::vector<std::uint32_t> Setup::offered_formats() {
@@ -323,7 +355,9 @@ Result<void> set_up(Kernel& kernel, int descriptor, const V4l2Settings& settings
                     AgreedFormat& agreed, std::string& message) {
   Setup setup(kernel, descriptor, settings, agreed, message);
   TUBESIGHT_TRY(setup.choose_input());
+  setup.listen();
   TUBESIGHT_TRY(setup.choose_standard());
+  TUBESIGHT_TRY(setup.compare_signal());
   TUBESIGHT_TRY(setup.choose_format());
   TUBESIGHT_TRY(setup.choose_rate());
   return set_controls(kernel, descriptor, settings.controls, message);
@@ -333,5 +367,7 @@ bool says_no_signal(std::uint32_t status) {
   return (status & (V4L2_IN_ST_NO_POWER | V4L2_IN_ST_NO_SIGNAL | V4L2_IN_ST_NO_H_LOCK |
                     V4L2_IN_ST_NO_V_LOCK | V4L2_IN_ST_NO_SYNC | V4L2_IN_ST_NO_CARRIER)) != 0;
 }
+
+bool says_no_standard(std::uint32_t status) { return (status & V4L2_IN_ST_NO_STD_LOCK) != 0; }
 
 }  // namespace tubesight::drivers::v4l2

@@ -11,6 +11,7 @@
 #include "drivers/v4l2/pixel_format.h"
 #include "drivers/v4l2/sequence_counter.h"
 #include "drivers/v4l2/v4l2_settings.h"
+#include "drivers/v4l2/video_standard.h"
 
 namespace tubesight::drivers::v4l2 {
 
@@ -23,14 +24,17 @@ struct AgreedFormat {
   bool odd_above = false;   ///< of those, that of odd lines first
   std::int32_t lines = 0;   ///< in a buffer
   std::int32_t stride_bytes = 0;
-  std::size_t bytes = 0;      ///< that the grey values of a buffer reach to
-  core::FieldTime span{0};    ///< from one field to the next
-  std::uint32_t input = 0;    ///< index of the one chosen
-  bool input_status = false;  ///< there is an input that can be asked
+  std::size_t bytes = 0;                          ///< that the grey values of a buffer reach to
+  core::FieldTime span{0};                        ///< from one field to the next
+  std::uint32_t input = 0;                        ///< index of the one chosen
+  bool input_status = false;                      ///< there is an input that can be asked
+  VideoStandard standard = VideoStandard::kNone;  ///< that the input is set to
 };
 
 /// Sets an open camera as the settings want it and reads back what became of it: input, standard,
-/// format, rate, controls. Opens no buffers. `agreed.api` is read, the rest is written.
+/// format, rate, controls. A change of the source from the choice of the standard on is told by an
+/// event of the stream, so that none is missed. Opens no buffers. `agreed.api` is read, the rest is
+/// written.
 ///
 /// Errors: kUnsupported it does not have what is wanted, kIo it refused; `message` says which, what
 /// it offers and what was wanted.
@@ -40,5 +44,7 @@ struct AgreedFormat {
 
 /// Whether a status of VIDIOC_ENUMINPUT says that no signal comes in.
 [[nodiscard]] bool says_no_signal(std::uint32_t status);
+/// Whether it says that the signal's standard is not the one that is set, nor any that is known.
+[[nodiscard]] bool says_no_standard(std::uint32_t status);
 
 }  // namespace tubesight::drivers::v4l2

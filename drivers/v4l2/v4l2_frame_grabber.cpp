@@ -19,13 +19,6 @@ using core::Result;
 using core::Unexpected;
 using v4l2::BufferKind;
 
-/// Without any buffer for so long the stream is begun anew: some grabbers start in vain at every
-/// tenth time, and deliver at the next.
-constexpr FieldTime kSilence = std::chrono::seconds(1);
-/// The same before the first one: a camera may have to settle.
-constexpr FieldTime kFirstSilence = std::chrono::seconds(5);
-/// The same of a slow camera, in fields.
-constexpr std::int32_t kSilentFields = 20;
 /// Refusals in a row after which the stream is given up; one alone passes.
 constexpr std::int32_t kMostRefusals = 3;
 /// Buffers announced in a row without one being there: a device that does this would keep a
@@ -43,7 +36,7 @@ constexpr bool device_is_gone(int status) {
 
 V4l2FrameGrabber::V4l2FrameGrabber(const V4l2Settings& settings, const hal::Clock& clock,
                                    v4l2::Kernel& kernel)
-    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(kernel) {}
+    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel) {}
 
 Result<void> V4l2FrameGrabber::start() {
   if (started_) {
@@ -51,7 +44,7 @@ Result<void> V4l2FrameGrabber::start() {
   }
   messages_.clear();
   std::string message;
-  if (const auto opened = device_.open(settings_, message); !opened) {
+  if (const auto opened = device_.open(message); !opened) {
     messages_.push_back(message);
     report_.trouble = CameraTrouble::kNotOpen;
     publish();
@@ -67,8 +60,7 @@ Result<void> V4l2FrameGrabber::start() {
   }
   fields_left_ = 0;
   failed_ = false;
-  last_buffer_ = now;
-  settled_ = false;
+  silence_.begin(now);
   looked_ = now;
   backlog_ = false;
   idle_in_a_row_ = 0;
@@ -94,7 +86,7 @@ void V4l2FrameGrabber::stop() {
 
 void V4l2FrameGrabber::look_after() {
   if (started_) {
-    no_signal_ = device_.without_signal();
+    signal_ = device_.signal();
   }
 }
 
@@ -196,9 +188,7 @@ Result<void> V4l2FrameGrabber::wait(FieldTime until) {
 }
 
 Result<void> V4l2FrameGrabber::nothing_came() {
-  const FieldTime longest = std::max<FieldTime>(settled_ ? kSilence : kFirstSilence,
-                                                kSilentFields * device_.agreed().span);
-  if (clock_->now() - last_buffer_ < longest) {
+  if (!silence_.too_long(clock_->now(), device_.agreed().span)) {
     return Unexpected(Error::kTimeout);
   }
   ++report_.counters.silences;
@@ -235,14 +225,13 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
     }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
-    last_buffer_ = clock_->now();
-    settled_ = true;
+    silence_.broken(clock_->now());
     held_ = buffer.index;
     if (!settings_.use_stamps) {
       buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
     }
     fields_left_ = fields_a_buffer();
-    next_ = judge_.first_field(buffer, {last_buffer_, backlog_}, no_signal_);
+    next_ = judge_.first_field(buffer, {silence_.last(), backlog_}, signal_);
     return true;
   }
   bool passes = false;

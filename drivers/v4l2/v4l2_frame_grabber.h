@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/snapshot.h"
+#include "drivers/camera/silence.h"
 #include "drivers/v4l2/buffer_judge.h"
 #include "drivers/v4l2/camera_device.h"
 #include "drivers/v4l2/camera_report.h"
@@ -23,9 +24,10 @@ namespace tubesight::drivers {
 /// field is taken out when it is lent, so that everything behind sees lines of grey bytes.
 ///
 /// What cannot be believed is a damaged field: what the driver flags, what is cut short, what came
-/// while the input had no signal, snow, a picture of one grey, one whose stamp cannot be. What ends
-/// the stream ends it for good: grab_for() says the error until stop() and start(), which are to be
-/// called by a thread that may wait; start() finds the device again, on whatever node.
+/// while the input had no signal or one of another standard, snow, a picture of one grey, one whose
+/// stamp cannot be. What ends the stream ends it for good: grab_for() says the error until stop()
+/// and start(), which are to be called by a thread that may wait; start() finds the device again,
+/// on whatever node.
 ///
 /// start(), stop() and look_after() belong to one thread, grab_for() and give_back() to another or
 /// the same; between the two kinds whoever owns the grabber hands it over.
@@ -47,12 +49,16 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   [[nodiscard]] core::Result<hal::FieldLease> grab_for(std::chrono::milliseconds timeout) override;
   void give_back(std::int32_t buffer) override;
 
-  /// Asks the input whether a signal comes in; to be called some times a second between start() and
-  /// stop(). May take its time: some drivers ask a chip behind a slow bus.
+  /// Asks the driver about the signal that comes in; to be called some times a second between
+  /// start() and stop(). May take its time: some drivers ask a chip behind a slow bus.
   void look_after();
 
   /// Lines of the last start(), for a person.
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
+
+  /// What the calibration leaves open of the camera that was opened last; of the thread that
+  /// starts.
+  [[nodiscard]] std::string doubt() const { return device_.doubt(); }
 
   /// From one field to the next, and fields that come at once; valid once started.
   [[nodiscard]] core::FieldTime span() const { return device_.agreed().span; }
@@ -91,18 +97,17 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   bool lent_ = false;
   bool failed_ = false;
   core::Error failure_ = core::Error::kNotReady;
-  std::uint32_t held_ = 0;          ///< the buffer in our hands
-  std::int32_t fields_left_ = 0;    ///< of it, not lent yet
-  core::Field next_;                ///< the first of those, but for its pixels
-  core::FieldTime last_buffer_{0};  ///< when it arrived; before the first one the start
-  bool settled_ = false;            ///< there was one since the start
-  core::FieldTime looked_{0};       ///< when somebody last waited for one
-  bool backlog_ = false;            ///< it may have lain there for long
+  std::uint32_t held_ = 0;        ///< the buffer in our hands
+  std::int32_t fields_left_ = 0;  ///< of it, not lent yet
+  core::Field next_;              ///< the first of those, but for its pixels
+  Silence silence_;
+  core::FieldTime looked_{0};  ///< when somebody last waited for one
+  bool backlog_ = false;       ///< it may have lain there for long
   std::int32_t idle_in_a_row_ = 0;
   std::int32_t errors_in_a_row_ = 0;
   std::int32_t refused_in_a_row_ = 0;
 
-  std::atomic<bool> no_signal_{false};
+  std::atomic<v4l2::Signal> signal_{v4l2::Signal::kGood};
   core::Snapshot<CameraReport> latest_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/settings.h"
+#include "drivers/camera/camera_identity.h"
 
 namespace tubesight::drivers {
 
@@ -27,8 +28,8 @@ struct V4l2Settings {
   /// A path below /dev/v4l, "bus:" and the bus path that the driver tells, or "serial:" and the
   /// serial number: what stays when devices are numbered anew.
   std::string device;
-  std::string serial;  ///< of the camera that was calibrated; empty: any
-  std::string format;  ///< "GREY" ...; empty: the best that there is
+  CameraIdentity calibrated;  ///< what the calibration says of its camera
+  std::string format;         ///< "GREY" ...; empty: the best that there is
   FieldLayout fields = FieldLayout::kAny;
   std::string input;          ///< by its name; empty: the one that is chosen
   std::string standard;       ///< "NTSC", "PAL"; empty: as it is

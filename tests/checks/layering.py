@@ -42,8 +42,12 @@ MAY_INCLUDE = {
     "core/session": POSE + ["core/tracking", "core/pose", "core/calibration", "core/kinematics",
                             "core/lighting", "core/verification", "core/overlay"],
     "drivers/files": BASE + ["hal"],
-    # Drivers do not know each other, with one exception: drivers/files holds what all that read files
-    # share (places and messages), and is the library that a recording as a frame grabber stands on.
+    # Drivers do not know each other, with two exceptions: drivers/files holds what all that read files
+    # share (places and messages), and is the library that a recording as a frame grabber stands on;
+    # drivers/camera holds what cameras of all buses share.
+    "drivers/camera": BASE,
+    "drivers/aravis": BASE + ["hal", "drivers/camera"],
+    "drivers/v4l2": BASE + ["hal", "drivers/camera"],
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
     "drivers/recording": BASE + ["hal", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
@@ -200,6 +204,11 @@ PLANTED = [
     ("hal/os.h", "#include <unistd.h>\n", "<unistd.h> is not on the list"),
     ("drivers/files/replay.cpp", '#include "drivers/replay/a.h"\n', "may not include drivers/replay"),
     ("drivers/replay/a.h", '#include "drivers/files/own.h"\n', None),
+    ("drivers/camera/own.h", "", None),
+    ("drivers/v4l2/shared.h", '#include "drivers/camera/own.h"\n', None),
+    ("drivers/v4l2/side.h", '#include "drivers/aravis/own.h"\n', "may not include drivers/aravis"),
+    ("drivers/aravis/own.h", "", None),
+    ("drivers/gpio/camera.h", '#include "drivers/camera/own.h"\n', "may not include drivers/camera"),
     ("drivers/replay/png.cpp", "#include <png.h>\n", "<png.h> is not on the list"),
     ("drivers/replay/clock.cpp", "auto t = std::chrono::steady_clock::now();\n", "asks a clock"),
     ("core/session/clock.cpp", "auto t = Clock::now ();\n", "asks a clock"),

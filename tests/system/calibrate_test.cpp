@@ -117,8 +117,9 @@ TEST(CalibrateCamera, WritesSettingsThatPoseReadsWithTheirUncertainty) {
   const TemporaryFolder folder;
   write_points(folder, "near.csv", 82.0);
   write_points(folder, "far.csv", 112.0);
-  const std::string settings = kCamera + target("0") + view("points = \"near.csv\"", "0") +
-                               view("points = \"far.csv\"", "30");
+  const std::string settings =
+      kCamera + "[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n" + target("0") +
+      view("points = \"near.csv\"", "0") + view("points = \"far.csv\"", "30");
   folder.write("c.toml", "what stood here");
 
   const ProgramRun run = calibrate(folder, settings, {"--out", "c.toml"});
@@ -126,6 +127,9 @@ TEST(CalibrateCamera, WritesSettingsThatPoseReadsWithTheirUncertainty) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_NEAR(number_of(folder.read("c.toml"), "focal_length_mm"), 5.0, 1e-4);
   EXPECT_EQ(folder.read("c.toml.bak"), "what stood here");
+  EXPECT_NE(folder.read("c.toml").find("serial = \"4711\"\nmodel = \"Maker Model\"\n"),
+            std::string::npos)
+      << "which camera it is";
   folder.write(
       "s.toml",
       "include = [\"c.toml\"]\n[tool]\nposition_mm = [0, 30, 110]\nrotation_deg = [0, 0, 48]\n"

@@ -44,7 +44,7 @@ class GigeMission : public testing::Test {
     frames_ = frames_of(mission_.fields(), camera);
     camera_.show(frames_, camera, kLead);
     settings_.device = "address:127.0.0.1";
-    settings_.serial = "4711";
+    settings_.calibrated.serial = "4711";
     settings_.fields_per_s = 60.0;
     settings_.width_px = camera.width_px;
     settings_.height_px = camera.height_px;

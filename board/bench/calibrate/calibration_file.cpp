@@ -10,6 +10,7 @@
 #include <ctime>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
@@ -69,6 +70,12 @@ std::string with_quality(const std::string& calibrated, const CalibrationQuality
   toml.numbers("sigma", sigma);
   toml.raw("correlation", correlation + "]");
   toml.text("verdict", quality.verdict);
+  for (const auto& [key, value] :
+       {std::pair{"serial", quality.serial}, std::pair{"model", quality.model}}) {
+    if (!value.empty()) {
+      toml.text(key, value);
+    }
+  }
   return calibrated + "\n" + toml.take();
 }
 

@@ -12,10 +12,13 @@ struct CalibrationQualityText {
   std::string_view table;  ///< "camera_quality", "tool_quality" or "base_quality"
   core::math::Matrix6d covariance;
   std::string_view verdict;
+  std::string_view serial;  ///< of the camera; empty: it is not known
+  std::string_view model;   ///< of the camera; empty: it is not known
 };
 
 /// The text of a calibrated table with that of its quality behind it: id, which is the table's
-/// digest, made_at (now), sigma, correlation, verdict.
+/// digest, made_at (now), sigma, correlation, verdict,
+/// and which camera it is where that is known.
 [[nodiscard]] std::string with_quality(const std::string& calibrated,
                                        const CalibrationQualityText& quality);
 

@@ -67,7 +67,8 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     return ExitStatus::kJobFailed;
   }
   const core::CameraSettings camera = calibrated(file.camera, work->state.camera);
-  return options.out.empty() || write_settings(options.out, camera_settings_text(camera, outcome))
+  return options.out.empty() ||
+                 write_settings(options.out, camera_settings_text(camera, outcome, file.device))
              ? ExitStatus::kDone
              : ExitStatus::kJobFailed;
 }

@@ -150,11 +150,12 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
 }
 
 std::string camera_settings_text(const core::CameraSettings& camera,
-                                 const CalibrationOutcome& outcome) {
+                                 const CalibrationOutcome& outcome,
+                                 const drivers::CalibrationQuality& device) {
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   drivers::write_camera(toml, camera);
-  return with_quality(toml.take(),
-                      {"camera_quality", outcome.fit.camera_covariance, use_of(outcome.verdict)});
+  return with_quality(toml.take(), {"camera_quality", outcome.fit.camera_covariance,
+                                    use_of(outcome.verdict), device.serial, device.model});
 }
 
 }  // namespace tubesight::board

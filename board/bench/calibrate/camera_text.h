@@ -5,6 +5,7 @@
 
 #include "core/base/settings.h"
 #include "core/calibration/camera_calibration.h"
+#include "drivers/settings/session_tables.h"
 
 namespace tubesight::board {
 
@@ -21,8 +22,10 @@ namespace tubesight::board {
                                       const core::calibration::CalibrationState& state,
                                       const core::calibration::CalibrationOutcome& outcome);
 
-/// `[camera]` and `[camera_quality]` as a settings file.
-[[nodiscard]] std::string camera_settings_text(
-    const core::CameraSettings& camera, const core::calibration::CalibrationOutcome& outcome);
+/// `[camera]` and `[camera_quality]` as a settings file; `device` says which camera it is, where
+/// that is known.
+[[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
+                                               const core::calibration::CalibrationOutcome& outcome,
+                                               const drivers::CalibrationQuality& device);
 
 }  // namespace tubesight::board

@@ -305,7 +305,7 @@ class ToolRun {
                    dockings_.size() == 1 ? "docking" : "dockings",
                    assumption_.clearance_mm > 0.0 ? "with clearance" : "offset given",
                    options_.heading_deg);
-    return with_quality(toml.take(), {"tool_quality", tool_.covariance, verdict});
+    return with_quality(toml.take(), {"tool_quality", tool_.covariance, verdict, {}, {}});
   }
 
   const CalibrateToolOptions& options_;

@@ -13,6 +13,12 @@ std::string list_of(const std::vector<std::string>& entries) {
   return text;
 }
 
+/// What binds a calibration to a camera, as it is written into `[camera_quality]`.
+std::string calibration_text(const std::string& serial, const std::string& model) {
+  return "      calibration: " + (serial.empty() ? "" : "serial = \"" + serial + "\", ") +
+         "model = \"" + model + "\"\n";
+}
+
 }  // namespace
 
 std::string cameras_text(const std::vector<drivers::v4l2::CameraInfo>& cameras) {
@@ -32,6 +38,7 @@ std::string cameras_text(const std::vector<drivers::v4l2::CameraInfo>& cameras) 
       text += path.empty() || path == name ? "" : "      also " + path + "\n";
     }
     text += camera.serial.empty() ? "      says no serial number\n" : "";
+    text += calibration_text(camera.serial, camera.driver + " " + camera.card);
     text += camera.inputs.empty() ? "" : "      inputs: " + list_of(camera.inputs) + "\n";
     for (const std::string& format : camera.formats) {
       text += "      " + format + "\n";
@@ -53,6 +60,7 @@ std::string network_cameras_text(const std::vector<drivers::aravis::CameraInfo>&
             camera.maker_and_model + ", " + camera.protocol + "\n";
     text += of_network && !serial.empty() ? "      also " + serial + "\n" : "";
     text += serial.empty() ? "      says no serial number\n" : "";
+    text += calibration_text(camera.serial, camera.maker_and_model);
   }
   return text;
 }

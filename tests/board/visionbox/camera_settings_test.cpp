@@ -22,16 +22,17 @@ TEST_F(CameraSettingsTest, ACameraNeedsItsNameAlone) {
   EXPECT_EQ(camera.width_px, box_->told().camera.width_px) << "of the session";
   EXPECT_EQ(camera.height_px, box_->told().camera.height_px);
   EXPECT_EQ(camera.scan, box_->told().camera.scan);
-  EXPECT_EQ(camera.serial, "") << "the calibration names none";
+  EXPECT_EQ(camera.calibrated.serial, "") << "the calibration names none";
 }
 
 TEST_F(CameraSettingsTest, EveryKeyOfACameraIsRead) {
-  ASSERT_TRUE(load(std::string(kCamera) +
-                   "format = \"Y10\"\nfields = \"alternate\"\ninput = \"S-Video\"\n"
-                   "standard = \"PAL\"\nfields_per_s = 50\nexposure_ms = 2.5\n"
-                   "controls = [\"Gain = 20\", \" Exposure Mode=Manual Mode \"]\n"
-                   "stamps = \"arrival\"\n"
-                   "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\n"))
+  ASSERT_TRUE(
+      load(std::string(kCamera) +
+           "format = \"Y10\"\nfields = \"alternate\"\ninput = \"S-Video\"\n"
+           "standard = \"PAL\"\nfields_per_s = 50\nexposure_ms = 2.5\n"
+           "controls = [\"Gain = 20\", \" Exposure Mode=Manual Mode \"]\n"
+           "stamps = \"arrival\"\n"
+           "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"em28xx Grabber\"\n"))
       << messages_.front();
 
   const drivers::V4l2Settings& camera = box_->source.v4l2;
@@ -47,7 +48,8 @@ TEST_F(CameraSettingsTest, EveryKeyOfACameraIsRead) {
   EXPECT_EQ(camera.controls[0].value, "20");
   EXPECT_EQ(camera.controls[1].name, "Exposure Mode");
   EXPECT_EQ(camera.controls[1].value, "Manual Mode");
-  EXPECT_EQ(camera.serial, "4711") << "of the calibration";
+  EXPECT_EQ(camera.calibrated.serial, "4711") << "of the calibration";
+  EXPECT_EQ(camera.calibrated.model, "em28xx Grabber");
 }
 
 TEST_F(CameraSettingsTest, ACameraIsNamedByWhatStays) {
@@ -101,7 +103,7 @@ TEST_F(CameraSettingsTest, AGigeCameraNeedsItsAddressAlone) {
   EXPECT_EQ(camera.width_px, box_->told().camera.width_px) << "of the session";
   EXPECT_EQ(camera.height_px, box_->told().camera.height_px);
   EXPECT_EQ(camera.scan, box_->told().camera.scan);
-  EXPECT_EQ(camera.serial, "") << "the calibration names none";
+  EXPECT_EQ(camera.calibrated.serial, "") << "the calibration names none";
 }
 
 TEST_F(CameraSettingsTest, EveryKeyOfAGigeCameraIsRead) {
@@ -127,7 +129,7 @@ TEST_F(CameraSettingsTest, EveryKeyOfAGigeCameraIsRead) {
   EXPECT_EQ(camera.packet_bytes, 1400);
   EXPECT_TRUE(camera.resend);
   EXPECT_EQ(camera.readout_ms, 8.5);
-  EXPECT_EQ(camera.serial, "A-12") << "of the calibration";
+  EXPECT_EQ(camera.calibrated.serial, "A-12") << "of the calibration";
 }
 
 TEST_F(CameraSettingsTest, WhatReceivesGoesBeforeTheTracking) {

@@ -23,9 +23,13 @@ class FakeCamera final : public Camera, public hal::FrameGrabber {
   hal::FrameGrabber& grabber() override { return *this; }
   void look_after() override { ++looks_; }
   std::string message() const override { return "camera x: is not there"; }
+  std::string doubt() const override { return unbound_ ? "calibration is bound to no camera" : ""; }
   core::FieldTime span() const override { return milliseconds(20); }
   std::int32_t fields_at_once() const override { return 2; }
-  CameraStatus status() const override { return {false, "the device is gone", true, true, {}}; }
+  CameraStatus status() const override {
+    const bool well = well_ && !gone_;
+    return {well, gone_ ? "the device is gone" : well ? "well" : "no signal", true, true, {}, {}};
+  }
 
   // As its grabber.
   core::Result<void> start() override {
@@ -59,6 +63,8 @@ class FakeCamera final : public Camera, public hal::FrameGrabber {
   std::atomic<bool> absent_{false};
   std::atomic<bool> gone_{false};
   std::atomic<bool> silent_{false};
+  std::atomic<bool> unbound_{false};
+  std::atomic<bool> well_{true};
   std::atomic<bool> started_{false};
   std::atomic<int> looks_{0};
 
@@ -197,6 +203,34 @@ TEST_F(CameraSourceTest, IsLookedAfterWhileItIsOpen) {
   }
 
   EXPECT_GE(camera_.looks_, 3);
+}
+
+TEST_F(CameraSourceTest, ATroubleThatStaysIsToldOnceAndItsEnd) {
+  ASSERT_TRUE(source_.start());
+  ASSERT_TRUE(grab());
+  camera_.well_ = false;
+  const auto told_within = [this](const std::string& line) {
+    for (int i = 0; i < 2000 && told(line) == 0; ++i) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    std::this_thread::sleep_for(milliseconds(20));
+    return told(line);
+  };
+  EXPECT_EQ(told_within("camera: no signal"), 1);
+  camera_.well_ = true;
+  EXPECT_EQ(told_within("camera: well again"), 1);
+}
+
+TEST_F(CameraSourceTest, WhatTheCalibrationLeavesOpenIsToldOnce) {
+  camera_.unbound_ = true;
+  ASSERT_TRUE(source_.start());
+  ASSERT_TRUE(grab());
+  EXPECT_EQ(source_.doubt(), "calibration is bound to no camera");
+  camera_.gone_ = true;
+  ASSERT_FALSE(grab());
+  camera_.gone_ = false;
+  EXPECT_TRUE(delivers_again());
+  EXPECT_EQ(told("camera: calibration is bound to no camera"), 1);
 }
 
 TEST_F(CameraSourceTest, AFieldIsDueAfterTheShortestWayOfItsKind) {

@@ -124,6 +124,20 @@ TEST(SelfTest, WhatIsNotWantedIsAbsentAndNotBad) {
   EXPECT_NE(self_test_answer(report).find(R"("disk":{"verdict":"absent")"), std::string::npos);
 }
 
+TEST(SelfTest, ACalibrationThatNamesNoCameraIsToldAndNoFault) {
+  BoxReport report = good_report();
+  report.camera = CameraStatus{true, "well", true, true, {}, {}};
+  EXPECT_NE(self_test_answer(report).find(R"("identity":{"verdict":"good")"), std::string::npos);
+
+  report.camera->doubt = "calibration is bound to no camera: this one is model = 'x'";
+  EXPECT_EQ(bad_row(report), "");
+  EXPECT_NE(
+      self_test_answer(report).find(R"("identity":{"verdict":"absent","words":"calibration )"),
+      std::string::npos);
+  EXPECT_NE(status_answer(report).find("camera    well; calibration is bound to no camera"),
+            std::string::npos);
+}
+
 TEST(StatusAnswer, TellsStateAndTubeInBothForms) {
   BoxReport report = good_report();
   core::Sighting& sighting = report.tracking.sighting;

@@ -217,14 +217,14 @@ TEST_F(GigeSetup, ACameraOfUsbHasNoPackets) {
 }
 
 TEST_F(GigeSetup, AnotherCameraThanTheCalibratedOneIsNotOpened) {
-  settings_.serial = "0815";
+  settings_.calibrated.serial = "0815";
   with(settings_);
   expect_refusal(Error::kUnsupported,
                  "has the serial number 4711, expected 0815, the one that was calibrated");
   with(settings_, [](FakeGigeCamera& camera) { camera.serial.clear(); });
   expect_refusal(Error::kUnsupported,
                  "says no serial number, expected 0815, the one that was calibrated");
-  settings_.serial = "4711";
+  settings_.calibrated.serial = "4711";
   with(settings_);
   EXPECT_TRUE(started_);
 }

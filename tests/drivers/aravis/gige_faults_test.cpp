@@ -1,7 +1,9 @@
 // What a camera of GigE Vision, its network and its clock do wrong. Each test injects one fault and
 // shows the state that follows, what was counted, and how it ends.
 
+#include <algorithm>
 #include <chrono>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +35,10 @@ class GigeFaults : public testing::Test {
       with(picture);
       bench_.camera().tamper = nullptr;
     };
+  }
+  /// Every picture from now on is this.
+  void show(std::function<void(Memory)> picture) {
+    bench_.camera().tamper = [picture](auto, Picture&, Memory memory) { picture(memory); };
   }
   void expect_damaged(AravisTrouble trouble) {
     EXPECT_EQ(bench_.next_status(), FieldStatus::kDamaged);
@@ -109,6 +115,55 @@ TEST_F(GigeFaults, TheSamePictureTwiceIsDamaged) {
 
   bench_.camera().tamper = nullptr;
   expect_well();
+}
+
+// A converter of analogue video behind a network goes on without a signal, and says nothing of it.
+TEST_F(GigeFaults, SnowWithoutAnyFlagIsDamaged) {
+  std::mt19937 random(3);
+  show([&](Memory memory) {
+    for (std::byte& pixel : memory) {
+      pixel = static_cast<std::byte>(random() >> 24);
+    }
+  });
+  expect_damaged(AravisTrouble::kNoise);
+  expect_damaged(AravisTrouble::kNoise);
+  EXPECT_EQ(bench_.counters().noise, 2);
+
+  bench_.camera().tamper = nullptr;
+  expect_well();
+}
+
+TEST_F(GigeFaults, OneGreyAllOverIsDamaged) {
+  for (const int grey : {35, 128, 235}) {
+    show([grey](Memory memory) { std::ranges::fill(memory, static_cast<std::byte>(grey)); });
+    expect_damaged(AravisTrouble::kBlank);
+  }
+  EXPECT_EQ(bench_.counters().blank, 3);
+
+  bench_.camera().tamper = nullptr;
+  expect_well();
+}
+
+TEST_F(GigeFaults, ABlackPictureIsCountedAndLeftToTheSession) {
+  show([](Memory memory) { std::ranges::fill(memory, std::byte{16}); });
+  expect_well();
+  EXPECT_EQ(bench_.counters().black, 1);
+}
+
+// Each field is looked at, of a frame that holds both.
+TEST(GigePairFaults, SnowInOneFieldOfAFrameDamagesThatFieldAlone) {
+  GigeBench bench(gige_settings(core::Scan::kEvenFirst));
+  ASSERT_TRUE(bench.settle()) << bench.message();
+  ASSERT_TRUE(bench.grab()) << "the second field of the frame";
+  std::mt19937 random(3);
+  bench.camera().tamper = [&](auto, Picture&, Memory memory) {
+    for (std::size_t at = 0; at < memory.size(); ++at) {
+      memory[at] = at / 64 % 2 == 1 ? static_cast<std::byte>(random() >> 24) : memory[at];
+    }
+  };
+  EXPECT_EQ(bench.next_status(), FieldStatus::kGood);
+  EXPECT_EQ(bench.next_status(), FieldStatus::kDamaged);
+  EXPECT_EQ(bench.counters().noise, 1);
 }
 
 TEST_F(GigeFaults, APictureOfAnotherSizeOrFormatIsDamaged) {

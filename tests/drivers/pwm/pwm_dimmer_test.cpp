@@ -1,13 +1,12 @@
 #include "drivers/pwm/pwm_dimmer.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/drivers/pwm/pwm_folder.h"
 #include "tests/hal/dimmer_contract.h"
-#include "tests/support/temporary_folder.h"
 
 namespace tubesight::support {
 namespace {
@@ -16,57 +15,20 @@ namespace fs = std::filesystem;
 using drivers::PwmDimmer;
 using drivers::PwmSettings;
 
-/// A folder that looks like the kernel's, with one chip of two channels, the first exported.
-class PwmFolder {
- public:
-  PwmFolder() {
-    fs::create_directories(folder_.path("devices/fe20c000.pwm"));
-    fs::create_directories(folder_.path("class/pwmchip0/pwm0"));
-    fs::create_directory_symlink(folder_.path("devices/fe20c000.pwm"),
-                                 folder_.path("class/pwmchip0/device"));
-    set("npwm", "2\n");
-    set("export", "");
-    for (const char* file : {"pwm0/duty_cycle", "pwm0/period", "pwm0/enable"}) {
-      set(file, "0\n");
-    }
-    set("pwm0/polarity", "normal\n");
-  }
-
-  [[nodiscard]] std::string root() const { return folder_.path("class"); }
-  [[nodiscard]] std::string file(const std::string& name) const {
-    return folder_.path("class/pwmchip0/" + name);
-  }
-  void set(const std::string& name, const std::string& text) {
-    folder_.write("class/pwmchip0/" + name, text);
-  }
-  /// What the kernel would read: the first line.
-  [[nodiscard]] std::string value(const std::string& name) const {
-    std::ifstream read(file(name));
-    std::string line;
-    std::getline(read, line);
-    return line;
-  }
-
- private:
-  TemporaryFolder folder_;
-};
-
-PwmSettings settings_of(bool inverted = false) { return {"fe20c000.pwm", 0, 1000, inverted}; }
-
 class PwmMaker {
  public:
   hal::Dimmer& dimmer() { return dimmer_; }
 
  private:
   PwmFolder folder_;
-  PwmDimmer dimmer_{settings_of(), folder_.root()};
+  PwmDimmer dimmer_{pwm_settings(), folder_.root()};
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Pwm, DimmerContract, PwmMaker);
 
 TEST(PwmDimmer, LightIsTheSharePulsesHaveOfTheirPeriod) {
   PwmFolder folder;
-  PwmDimmer dimmer(settings_of(), folder.root());
+  PwmDimmer dimmer(pwm_settings(), folder.root());
   ASSERT_TRUE(dimmer.start()) << dimmer.message();
   EXPECT_EQ(folder.value("pwm0/period"), "1000000");
   EXPECT_EQ(folder.value("pwm0/duty_cycle"), "0");
@@ -82,7 +44,7 @@ TEST(PwmDimmer, LightIsTheSharePulsesHaveOfTheirPeriod) {
 
 TEST(PwmDimmer, AnInvertedLampIsDarkWhileTheOutputIsHigh) {
   PwmFolder folder;
-  PwmDimmer dimmer(settings_of(true), folder.root());
+  PwmDimmer dimmer(pwm_settings(true), folder.root());
   ASSERT_TRUE(dimmer.start());
   EXPECT_EQ(folder.value("pwm0/duty_cycle"), "1000000");
 
@@ -99,7 +61,7 @@ TEST(PwmDimmer, APolarityThatSomebodyLeftIsSetBack) {
   folder.set("pwm0/period", "1000000\n");
   folder.set("pwm0/enable", "1\n");
   folder.set("pwm0/polarity", "inversed\n");
-  PwmDimmer dimmer(settings_of(), folder.root());
+  PwmDimmer dimmer(pwm_settings(), folder.root());
 
   ASSERT_TRUE(dimmer.start()) << dimmer.message();
 
@@ -110,14 +72,14 @@ TEST(PwmDimmer, APolarityThatSomebodyLeftIsSetBack) {
 TEST(PwmDimmer, AChipWithoutPolarityIsAsUsual) {
   PwmFolder folder;
   fs::remove(folder.file("pwm0/polarity"));
-  PwmDimmer dimmer(settings_of(), folder.root());
+  PwmDimmer dimmer(pwm_settings(), folder.root());
 
   EXPECT_TRUE(dimmer.start()) << dimmer.message();
 }
 
 TEST(PwmDimmer, IsFoundByItsNameToo) {
   PwmFolder folder;
-  PwmSettings settings = settings_of();
+  PwmSettings settings = pwm_settings();
   settings.chip = "pwmchip0";
   PwmDimmer dimmer(settings, folder.root());
 
@@ -138,7 +100,7 @@ std::string refusal(PwmFolder& folder, const PwmSettings& settings) {
 
 TEST(PwmDimmer, AChipThatIsNotThereNamesThoseThatAre) {
   PwmFolder folder;
-  PwmSettings settings = settings_of();
+  PwmSettings settings = pwm_settings();
   settings.chip = "pwmchip7";
 
   EXPECT_EQ(refusal(folder, settings),
@@ -147,7 +109,7 @@ TEST(PwmDimmer, AChipThatIsNotThereNamesThoseThatAre) {
 
 TEST(PwmDimmer, AChannelThatTheChipDoesNotHaveIsRefused) {
   PwmFolder folder;
-  PwmSettings settings = settings_of();
+  PwmSettings settings = pwm_settings();
   settings.channel = 2;
 
   EXPECT_EQ(refusal(folder, settings), "lamp on fe20c000.pwm channel 2: the chip has 2 channels");
@@ -155,7 +117,7 @@ TEST(PwmDimmer, AChannelThatTheChipDoesNotHaveIsRefused) {
 
 TEST(PwmDimmer, AChannelThatNeverComesIsToldAfterAWhile) {
   PwmFolder folder;
-  PwmSettings settings = settings_of();
+  PwmSettings settings = pwm_settings();
   settings.channel = 1;
 
   EXPECT_EQ(refusal(folder, settings),
@@ -169,7 +131,7 @@ TEST(PwmDimmer, APeriodThatIsNotKeptIsRefused) {
   fs::remove(folder.file("pwm0/period"));
   fs::create_symlink("/dev/null", folder.file("pwm0/period"));
 
-  EXPECT_EQ(refusal(folder, settings_of()),
+  EXPECT_EQ(refusal(folder, pwm_settings()),
             "lamp on fe20c000.pwm channel 0: period is -1 ns, expected 1000000");
 }
 
@@ -178,9 +140,29 @@ TEST(PwmDimmer, APolarityThatStaysIsRefused) {
   fs::remove(folder.file("pwm0/polarity"));
   fs::create_symlink("/dev/null", folder.file("pwm0/polarity"));
 
-  EXPECT_EQ(refusal(folder, settings_of()),
+  EXPECT_EQ(refusal(folder, pwm_settings()),
             "lamp on fe20c000.pwm channel 0: polarity is not normal, expected it so: dark would be "
             "light");
+}
+
+// Two boxes, or two lamps of one: the second would undo what the first does.
+TEST(PwmDimmer, AChannelThatAnotherHasIsRefusedAndNotTouched) {
+  PwmFolder folder;
+  PwmDimmer first(pwm_settings(), folder.root());
+  ASSERT_TRUE(first.start());
+  ASSERT_TRUE(first.set_level(300));
+  PwmSettings settings = pwm_settings(true);
+  settings.frequency_hz = 5000;
+
+  EXPECT_EQ(
+      refusal(folder, settings),
+      "lamp on fe20c000.pwm channel 0: is busy: another box or lamp has it, expected it free");
+  EXPECT_EQ(folder.value("pwm0/duty_cycle"), "300000");
+  EXPECT_EQ(folder.value("pwm0/period"), "1000000");
+
+  first.stop();
+  PwmDimmer second(settings, folder.root());
+  EXPECT_TRUE(second.start()) << "when it is free: " << second.message();
 }
 
 TEST(PwmDimmer, ARefusalOfTheKernelIsToldAndTheNextStartMaySucceed) {
@@ -188,12 +170,12 @@ TEST(PwmDimmer, ARefusalOfTheKernelIsToldAndTheNextStartMaySucceed) {
   fs::remove(folder.file("pwm0/duty_cycle"));
   fs::create_symlink("/dev/full", folder.file("pwm0/duty_cycle"));
 
-  EXPECT_EQ(refusal(folder, settings_of()),
+  EXPECT_EQ(refusal(folder, pwm_settings()),
             "lamp on fe20c000.pwm channel 0: duty_cycle = 0: No space left on device");
 
   fs::remove(folder.file("pwm0/duty_cycle"));
   folder.set("pwm0/duty_cycle", "0\n");
-  PwmDimmer dimmer(settings_of(), folder.root());
+  PwmDimmer dimmer(pwm_settings(), folder.root());
   ASSERT_TRUE(dimmer.start());
   EXPECT_TRUE(dimmer.set_level(100));
 }

@@ -36,13 +36,13 @@ class SessionSettings : public testing::Test {
 };
 
 TEST_F(SessionSettings, ReadsEveryTable) {
-  ASSERT_EQ(load(kWhole +
-                 "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
-                 "max_acceleration_mm_s2 = 2000.5\n[edges]\ninitial_threshold = 150\n"
-                 "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
-                 "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
-                 "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nsigma = [1.0]\n[tool_quality]\n"
-                 "id = \"t1\"\nmade_at = 1995-08-01\n"),
+  ASSERT_EQ(load(kWhole + "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
+                          "max_acceleration_mm_s2 = 2000.5\n[edges]\ninitial_threshold = 150\n"
+                          "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
+                          "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
+                          "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"m\"\nsigma "
+                          "= [1.0]\n[tool_quality]\n"
+                          "id = \"t1\"\nmade_at = 1995-08-01\n"),
             Messages{});
 
   EXPECT_EQ(settings_.camera.width_px, 635);
@@ -72,6 +72,7 @@ TEST_F(SessionSettings, ReadsEveryTable) {
   EXPECT_EQ(settings_.verification.claim_oldest_s, 0.2);
   EXPECT_EQ(session_->camera_quality.id, "c1");
   EXPECT_EQ(session_->camera_quality.serial, "4711");
+  EXPECT_EQ(session_->camera_quality.model, "m");
   EXPECT_EQ(session_->tool_quality.id, "t1");
   EXPECT_TRUE(session_->has_tool);
 }

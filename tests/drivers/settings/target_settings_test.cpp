@@ -36,6 +36,14 @@ class CalibrationTarget : public testing::Test {
   TargetFile file_;
 };
 
+TEST_F(CalibrationTarget, MaySayWhichCameraItIsAsACalibrationDoes) {
+  ASSERT_EQ(load(kCameraTable + "[camera_quality]\nid = \"c1\"\nmade_at = \"then\"\n" +
+                 "serial = \"4711\"\nmodel = \"Maker Model\"\nsigma = [1.0]\n" + kTarget + kViews),
+            Messages{});
+  EXPECT_EQ(file_.device.serial, "4711");
+  EXPECT_EQ(file_.device.model, "Maker Model");
+}
+
 TEST_F(CalibrationTarget, IsReadWithItsViewsFromBesideIt) {
   ASSERT_EQ(load(kCameraTable + kTarget + kViews), Messages{});
 
@@ -55,6 +63,7 @@ TEST_F(CalibrationTarget, IsReadWithItsViewsFromBesideIt) {
   EXPECT_TRUE(file_.views[0].staged);
   EXPECT_EQ(file_.views[0].height_mm, 0.0);
   EXPECT_EQ(file_.views[1].points, "folder/far.csv");
+  EXPECT_EQ(file_.device.serial, "") << "it is not known";
   EXPECT_FALSE(file_.views[1].staged);
 }
 

@@ -244,6 +244,27 @@ TEST_F(CameraFaults, ADeviceThatIsGoneIsFoundOnAnotherNodeWhenItIsBack) {
   expect_recovery();
 }
 
+// Without a number in the calibration nothing else would tell it from the one that was there.
+TEST_F(CameraFaults, AnotherCameraAtTheSamePlaceIsNotTaken) {
+  EXPECT_EQ(bench_.grabber().doubt(),
+            "calibration is bound to no camera: this one is model = \"fake Grabber\"");
+  bench_.kernel().unplug(0);
+  expect_error(Error::kDisconnected);
+
+  const auto other = std::make_shared<FakeCamera>();
+  other->serial = "4712";
+  bench_.kernel().plug(0, other);
+  const auto started = bench_.start_anew();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error(), Error::kUnsupported);
+  EXPECT_EQ(bench_.message(), std::string("camera ") + kByPath +
+                                  ": has the serial number 4712, expected one without, the one "
+                                  "that this box has used so far");
+
+  bench_.kernel().plug(0, bench_.shared_camera());
+  expect_recovery();
+}
+
 TEST_F(CameraFaults, ADeviceThatGoesInTheMiddleOfACallIsGone) {
   bench_.camera().results[VIDIOC_DQBUF] = {-ENODEV};
 

@@ -174,7 +174,7 @@ TEST(CameraSetup, ACameraThatIsNotThereNamesThoseThatAre) {
 
 TEST(CameraSetup, AnotherCameraThanWasCalibratedIsNotTaken) {
   V4l2Settings settings = settings_of();
-  settings.serial = "4711";
+  settings.calibrated.serial = "4711";
   CameraBench bench(settings);
 
   EXPECT_EQ(refusal(bench, Error::kUnsupported),

@@ -37,8 +37,9 @@ struct FakeCamera {
   std::string serial;
   std::string card = "Grabber";
   std::vector<Input> inputs{{"S-Video", 0}};
-  int input = 0;  ///< the one chosen
-  v4l2_std_id standard = 0;
+  int input = 0;             ///< the one chosen
+  v4l2_std_id standard = 0;  ///< set; 0: it has none
+  v4l2_std_id sensed = 0;    ///< of the signal, as QUERYSTD says it; 0: it cannot
   std::vector<std::uint32_t> formats{V4L2_PIX_FMT_GREY};
   std::vector<std::uint32_t> fields{V4L2_FIELD_NONE};  ///< others are answered with the first
   std::uint32_t widths_of = 1;      ///< a width is rounded up to a multiple of it
@@ -61,6 +62,8 @@ struct FakeCamera {
   std::map<unsigned long, std::deque<int>> results;
   std::deque<int> poll_results;   ///< of the next calls, as poll()'s
   std::deque<v4l2_event> events;  ///< pending
+  /// Called before a request is answered: what happens in the middle of an opening.
+  std::function<void(unsigned long request)> before;
 };
 
 /// Draws what a camera of this format sees, as `told` says which lines.

@@ -35,6 +35,16 @@ int FakeKernel::calls(unsigned long request) const {
   return at == calls_.end() ? 0 : at->second;
 }
 
+void FakeKernel::change_source(FakeCamera& camera) {
+  for (const auto& [descriptor, opened] : opened_) {
+    if (opened.subscribed && opened.camera.get() == &camera) {
+      v4l2_event change{};
+      change.type = V4L2_EVENT_SOURCE_CHANGE;
+      camera.events.push_back(change);
+    }
+  }
+}
+
 int FakeKernel::open(const std::string& path) {
   const std::string real = real_path(path);
   if (real.empty()) {
@@ -59,6 +69,9 @@ int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {
   Opened& opened = at->second;
   if (!plugged(opened)) {
     return -ENODEV;
+  }
+  if (opened.camera->before) {
+    opened.camera->before(request);
   }
   std::deque<int>& results = opened.camera->results[request];
   if (!results.empty()) {
@@ -113,6 +126,9 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
     case VIDIOC_G_STD:
       *static_cast<v4l2_std_id*>(argument) = camera.standard;
       return camera.standard == 0 ? -ENODATA : 0;
+    case VIDIOC_QUERYSTD:
+      *static_cast<v4l2_std_id*>(argument) = camera.sensed;
+      return camera.sensed == 0 ? -ENOTTY : 0;
     default: return answer_format(opened, request, argument);
   }
 }
@@ -151,7 +167,7 @@ int FakeKernel::answer_format(Opened& opened, unsigned long request, void* argum
 int FakeKernel::answer_stream(Opened& opened, unsigned long request, void* argument) {
   FakeCamera& camera = *opened.camera;
   switch (request) {
-    case VIDIOC_SUBSCRIBE_EVENT: return 0;
+    case VIDIOC_SUBSCRIBE_EVENT: opened.subscribed = true; return 0;
     case VIDIOC_DQEVENT: {
       if (camera.events.empty()) {
         return -ENOENT;

@@ -25,6 +25,9 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
   /// A path that leads to another.
   void link(const std::string& from, const std::string& to) { links_[from] = to; }
 
+  /// A camera's source changes: whoever has subscribed to it is told, and nobody else ever.
+  void change_source(FakeCamera& camera);
+
   void advance(core::FieldTime by) { now_ += by; }
   [[nodiscard]] core::FieldTime now() const override { return now_; }
 
@@ -58,6 +61,7 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
     std::vector<std::uint32_t> queue;
     std::vector<std::uint32_t> done;
     bool streams = false;
+    bool subscribed = false;
     std::uint32_t sequence = 0;
     bool bottom = false;  ///< the next of alternate fields
     core::FieldTime next{0};

@@ -13,11 +13,14 @@ TEST(MachineDevices, NetworkCamerasAreListedByAddressAndThoseOfUsbByNumber) {
             "  address:192.168.1.20\n"
             "      Maker Model, GigEVision\n"
             "      also serial:21877\n"
+            "      calibration: serial = \"21877\", model = \"Maker Model\"\n"
             "  address:192.168.1.21\n"
             "      Maker Other, GigEVision\n"
             "      says no serial number\n"
+            "      calibration: model = \"Maker Other\"\n"
             "  serial:A-3\n"
-            "      Maker Third, USB3Vision\n");
+            "      Maker Third, USB3Vision\n"
+            "      calibration: serial = \"A-3\", model = \"Maker Third\"\n");
   EXPECT_EQ(network_cameras_text({}), "no network cameras\n");
 }
 
@@ -45,12 +48,14 @@ TEST(MachineDevices, ACameraIsListedByWhatStaysWithWhatItOffers) {
             "  /dev/v4l/by-path/pci-0\n"
             "      /dev/video0, Grabber, driver em28xx, bus:usb-1\n"
             "      says no serial number\n"
+            "      calibration: model = \"em28xx Grabber\"\n"
             "      inputs: Composite, S-Video\n"
             "      YUYV 720 x 480\n"
             "      MJPG 720 x 480 (not taken)\n"
             "  serial:4711\n"
             "      /dev/video2, Grabber, driver em28xx, bus:usb-1\n"
             "      also /dev/v4l/by-path/pci-0\n"
+            "      calibration: serial = \"4711\", model = \"em28xx Grabber\"\n"
             "  /dev/v4l/by-id/c\n"
             "      /dev/video4, cannot be opened: busy, or of another user\n");
 }

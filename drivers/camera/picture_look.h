@@ -4,7 +4,7 @@
 
 #include "core/base/image_view.h"
 
-namespace tubesight::drivers::v4l2 {
+namespace tubesight::drivers {
 
 /// What a picture looks like at a glance.
 enum class Look : std::uint8_t {
@@ -19,4 +19,4 @@ enum class Look : std::uint8_t {
 /// Costs some 5 us. A sensor's own noise in the dark is far below what counts as snow.
 [[nodiscard]] Look look_at(const core::FieldView& field);
 
-}  // namespace tubesight::drivers::v4l2
+}  // namespace tubesight::drivers

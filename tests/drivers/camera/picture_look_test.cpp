@@ -1,4 +1,4 @@
-#include "drivers/v4l2/picture_look.h"
+#include "drivers/camera/picture_look.h"
 
 #include <algorithm>
 #include <functional>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tubesight::drivers::v4l2 {
+namespace tubesight::drivers {
 namespace {
 
 constexpr std::int32_t kWidth = 320;
@@ -78,4 +78,4 @@ TEST(PictureLook, LooksInsideThePictureAlone) {
 }
 
 }  // namespace
-}  // namespace tubesight::drivers::v4l2
+}  // namespace tubesight::drivers

@@ -1,10 +1,10 @@
-#include "drivers/v4l2/picture_look.h"
+#include "drivers/camera/picture_look.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 
-namespace tubesight::drivers::v4l2 {
+namespace tubesight::drivers {
 namespace {
 
 constexpr std::int32_t kPlacesAcross = 16;
@@ -51,4 +51,4 @@ Look look_at(const core::FieldView& field) {
   return bright && 4 * near >= 3 * apart ? Look::kNoise : Look::kPicture;
 }
 
-}  // namespace tubesight::drivers::v4l2
+}  // namespace tubesight::drivers
