@@ -35,10 +35,10 @@ constexpr std::array<Error, 5> kErrors = {{
     {"missed", Count::kMissed, Count::kMovesMissed},
 }};
 
-constexpr std::array<Count, 10> kLosses = {
-    Count::kLostNoTubes, Count::kLostCoasted,   Count::kLostJump,       Count::kLostSpeed,
-    Count::kLostGap,     Count::kLostTime,      Count::kLostArithmetic, Count::kLostSequence,
-    Count::kLostRate,    Count::kLostFieldOrder};
+constexpr std::array<Count, 11> kLosses = {
+    Count::kLostNoTubes, Count::kLostCoasted,    Count::kLostJump,       Count::kLostSpeed,
+    Count::kLostGap,     Count::kLostTime,       Count::kLostArithmetic, Count::kLostSequence,
+    Count::kLostRate,    Count::kLostFieldOrder, Count::kLostMap};
 
 void print_totals(std::string& out, const Progress& progress) {
   const Counts total = progress.total();

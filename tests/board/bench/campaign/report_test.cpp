@@ -67,6 +67,28 @@ TEST(ReportText, TellsTotalsAndBoundsPerMove) {
   EXPECT_NE(text.find("lost_jump 160"), std::string::npos);
 }
 
+TEST(ReportText, TellsEachReasonOfALoss) {
+  Counts counts;
+  counts[Count::kMoves] = 1;
+  std::vector<std::string> reasons;
+  for (std::size_t i = 0; i < kCounts; ++i) {
+    const auto count = static_cast<Count>(i);
+    if (name_of(count).starts_with("lost_")) {
+      counts[count] = 1;
+      reasons.emplace_back(name_of(count));
+    }
+  }
+  Progress progress({"0.1.0-abc", "design-1"});
+  progress.add(1, 0, counts, 250);
+
+  const std::string text = report_text(progress);
+
+  EXPECT_EQ(reasons.size(), 11U);
+  for (const std::string& reason : reasons) {
+    EXPECT_NE(text.find(" " + reason + " 1"), std::string::npos) << reason;
+  }
+}
+
 TEST(ReportCsv, HasOneRowAGroupAndAsManyCellsEverywhere) {
   const std::string csv = report_csv(two_rounds());
   std::size_t rows = 0;
