@@ -228,7 +228,8 @@ std::string status_text(const BoxReport& report) {
   text += "\nstep      " + latency_text(tracking.step);
   text += "\nsighting  " + latency_text(tracking.grab_to_sighting) + " after the field, " +
           std::to_string(tracking.late) + " later than the deadline";
-  text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille"
+  text += "\nlamp      " + (tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille" +
+                                                (tracking.lamp_automatic ? ", automatic" : "")
                                           : std::string("nobody dims it"));
   text += report.lamp && !report.lamp->open ? ", its device cannot be had" : "";
   text += picture_text(tracking);
@@ -272,7 +273,7 @@ std::string status_answer(const BoxReport& report) {
     add_latency(line, "grab_to_sighting", tracking.grab_to_sighting);
     line.add("late", tracking.late);
     line.open("lamp").add("dimmed", tracking.lamp).add("permille", tracking.lamp_permille);
-    line.add("ruled", tracking.lamp_ruled);
+    line.add("ruled", tracking.lamp_ruled).add("automatic", tracking.lamp_automatic);
     line.add("condition", core::lighting::words_of(tracking.lamp_condition).word);
     if (report.lamp) {
       line.add("open", report.lamp->open).add("resting", report.lamp->resting);

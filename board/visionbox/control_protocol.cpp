@@ -120,9 +120,11 @@ Content parse_pick(const Words& arguments) {
 
 Content parse_lamp(const Words& arguments) {
   core::LampCommand command;
-  if (arguments.size() != 1 ||
-      !parse_whole<std::int32_t>(arguments[0], 0, hal::kFullLevel_permille, command.permille)) {
-    return WrongRequest{"lamp: expected a level of 0 to 1000 permille"};
+  command.automatic = arguments.size() == 1 && arguments[0] == "auto";
+  if (!command.automatic &&
+      (arguments.size() != 1 ||
+       !parse_whole<std::int32_t>(arguments[0], 0, hal::kFullLevel_permille, command.permille))) {
+    return WrongRequest{"lamp: expected a level of 0 to 1000 permille, or auto"};
   }
   return event_of(command);
 }
@@ -162,7 +164,10 @@ std::string answer_to(std::string_view command, const core::PickReply& reply) {
 std::string answer_to(std::string_view command, const core::LampReply& reply) {
   return begin_answer(command, true)
       .add("permille", reply.permille)
-      .add("text", std::to_string(reply.permille) + " permille wanted from now on")
+      .add("automatic", reply.automatic)
+      .add("text", std::to_string(reply.permille) +
+                       (reply.automatic ? " permille now, by the picture from now on"
+                                        : " permille wanted from now on"))
       .finish();
 }
 

@@ -28,7 +28,7 @@ struct Options {
   std::string place;
   std::int64_t field = -1;
   bool confirm = false;
-  std::int32_t permille = 0;
+  std::string level;  ///< of the lamp
 };
 
 void add_field(CLI::App& command, Options& options) {
@@ -53,10 +53,10 @@ void add_commands(CLI::App& app, Options& options) {
   CLI::App* const pick = app.add_subcommand("pick", "Which tube stands at a place of the picture");
   pick->add_option("PLACE", options.place, "U,V: the place, px")->required();
   add_field(*pick, options);
-  app.add_subcommand("lamp", "Set the lamp's level")
-      ->add_option("PERMILLE", options.permille, "0 (dark) to 1000")
+  app.add_subcommand("lamp", "Set the lamp's level, or let the box find it")
+      ->add_option("PERMILLE", options.level, "0 (dark) to 1000, or auto")
       ->required()
-      ->check(CLI::Range(0, 1000));
+      ->check(CLI::Range(0, 1000) | CLI::IsMember({"auto"}));
   app.add_subcommand("record", "Let the box write its last fields to disk");
   app.add_subcommand("self-test", "Whether everything of the box works")
       ->add_flag("--json", options.json, "Print the box's answer as it is");
@@ -75,7 +75,7 @@ std::string request(const std::string& command, const Options& options) {
   } else if (command == "pick") {
     append(options.place);
   } else if (command == "lamp") {
-    append(std::to_string(options.permille));
+    append(options.level);
   }
   append(options.field >= 0 ? "field=" + std::to_string(options.field) : "");
   return line;

@@ -84,6 +84,7 @@ void TrackingThread::publish() {
   now_.lamp = loop_->input().lamp_dimmed;
   now_.lamp_permille = loop_->input().field.lamp_permille;
   now_.lamp_ruled = loop_->output().lamp_ruled;
+  now_.lamp_automatic = loop_->output().lamp_automatic;
   now_.lamp_condition = loop_->output().lamp;
   latest_.publish(now_);
   tell_robot();
@@ -100,6 +101,7 @@ void TrackingThread::tell_robot() {
                   : source == SourceState::kOpening ? Health::kUnknown
                                                     : Health::kFailed;
   health.lamp_dimmed = now_.lamp;
+  health.lamp_automatic = now_.lamp_automatic;
   if (now_.lamp) {
     const bool failed = now_.counters.dimmer_errors > dimmer_errors_ ||
                         (told_.lamp != nullptr && !told_.lamp->report().open) ||

@@ -29,6 +29,7 @@ struct TrackingStatus {
   LatencyHistogram grab_to_sighting;  ///< from the field's instant to the same
   bool lamp = false;                  ///< somebody dims it
   std::int32_t lamp_permille = 0;     ///< level in force
+  bool lamp_automatic = false;        ///< it follows the picture: nobody has commanded one
   bool lamp_ruled = false;            ///< by the box: by the picture, or a pattern
   core::lighting::LampCondition lamp_condition = core::lighting::LampCondition::kUnknown;
   bool scheduled = false;  ///< the thread has SCHED_FIFO

@@ -26,9 +26,10 @@ struct Start {
   bool confirmed = false;  ///< a person insists on it against a warning
 };
 
-/// A lamp level asked for, 0..1000.
+/// A lamp level asked for, 0..1000, or the box's own again.
 struct LampCommand {
-  std::int32_t permille = 0;
+  std::int32_t permille = 0;  ///< without meaning where it is automatic
+  bool automatic = false;     ///< what was commanded is over: the level follows the picture
 };
 
 /// The robot asks for its pose.

@@ -102,6 +102,7 @@ struct PoseReply {
 /// The answer to a LampCommand: the level is wanted from now on.
 struct LampReply {
   std::int32_t permille = 0;
+  bool automatic = false;  ///< it is the box's own, which will change
 };
 
 /// The answer where nobody is there to serve that kind of event.

@@ -29,6 +29,9 @@ class Lighting {
   /// Whether the box decides on the lamp's level, wholly or by a swing.
   [[nodiscard]] bool rules() const { return policy_.pattern || policy_.follows_picture; }
 
+  /// Whether there is a level of its own, which follows the picture.
+  [[nodiscard]] bool follows_picture() const { return policy_.follows_picture; }
+
   /// What one field shows.
   struct Look {
     const Field* field = nullptr;

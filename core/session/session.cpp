@@ -44,6 +44,7 @@ void Session<S, Margin>::step(const Input& input, Output& output) {
   if (output.lamp_ruled) {
     output.lamp_permille = lighting_.wanted_permille(lamp_wanted_, input.field.mid_exposure);
   }
+  output.lamp_automatic = output.lamp_ruled && lighting_.follows_picture() && !lamp_wanted_;
 }
 
 // The last of several starts before one field is the one that counts; each gets its own answer.
@@ -141,6 +142,17 @@ void Session<S, Margin>::answer(const Event& event, const Input& input, std::int
                  [&](const LampCommand& command) {
                    if (!input.lamp_dimmed && !output.lamp_ruled) {
                      reply(NotServedReply{});
+                     return;
+                   }
+                   if (command.automatic) {
+                     // A box without a level of its own keeps what was commanded.
+                     if (!lighting_.rules() || !lighting_.follows_picture()) {
+                       reply(NotServedReply{});
+                       return;
+                     }
+                     lamp_wanted_.reset();
+                     reply(LampReply{
+                         lighting_.wanted_permille(lamp_wanted_, input.field.mid_exposure), true});
                      return;
                    }
                    lamp_wanted_ = command.permille;

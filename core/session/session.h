@@ -36,7 +36,8 @@ struct Output {
   tracking::TubeSightingList tubes;                 ///< measured tube-ends and recognised plugs
   ReplyList replies;                                ///< in the order of their making
   std::int32_t lamp_permille = kFullLamp_permille;  ///< level wanted
-  bool lamp_ruled = false;  ///< the session means that level: somebody took the lamp for it
+  bool lamp_ruled = false;      ///< the session means that level: somebody took the lamp for it
+  bool lamp_automatic = false;  ///< that level follows the picture: nobody has commanded one
   lighting::LampCondition lamp = lighting::LampCondition::kUnknown;  ///< as the picture shows it
   PoseOrder order;  ///< a pose to compute, from this field's picture on
 };

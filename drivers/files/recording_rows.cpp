@@ -96,7 +96,11 @@ void append_kind_and_values(std::string& out, const core::Event& event, Places p
                               },
                               [&](const core::LampCommand& lamp) {
                                 out += "lamp,";
-                                append_whole(out, lamp.permille);
+                                if (lamp.automatic) {
+                                  out += "auto";
+                                } else {
+                                  append_whole(out, lamp.permille);
+                                }
                               },
                               [&](const core::PoseRequest&) { out += "pose,"; },
                               [&](const core::Pick& pick) {

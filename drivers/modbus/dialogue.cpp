@@ -59,7 +59,8 @@ bool has(std::int32_t bits, CommandBit command) { return (bits & bit_of(command)
 bool is_sound(const RegisterImage& next, std::int32_t begun) {
   if (next.get(Register::kCommand) >= 1 << kCommandBits || next.get(Register::kStartConfirm) > 1 ||
       next.get(Register::kLampLevel) > core::kFullLamp_permille ||
-      next.get(Register::kLampMode) != 1) {
+      (next.get(Register::kLampMode) != kLampCommanded &&
+       next.get(Register::kLampMode) != kLampAutomatic)) {
     return false;
   }
   if (has(begun, CommandBit::kStart)) {
@@ -99,7 +100,7 @@ void Dialogue::reset() {
   }
   image_.set(kSeenField, -1);
   image_.set(kLampLevel, core::kFullLamp_permille);
-  image_.set(kLampMode, 1);
+  image_.set(kLampMode, kLampCommanded);
   for (std::int32_t i = 0; i < 4; ++i) {
     image_.set(after(kWindowLeft, i), state_->identity.window_px[static_cast<std::size_t>(i)]);
   }
@@ -215,7 +216,9 @@ void Dialogue::begin(CommandBit command, RegisterImage& next, FieldTime arrival)
       break;
     case CommandBit::kLamp:
       next.set(kLampId, id);
-      ticket = outbox_.send(core::LampCommand{next.get(kLampLevel)}, id, arrival);
+      ticket = outbox_.send(
+          core::LampCommand{next.get(kLampLevel), next.get(kLampMode) == kLampAutomatic}, id,
+          arrival);
       break;
     case CommandBit::kPose:
       next.set(kPoseId, id);

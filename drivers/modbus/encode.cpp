@@ -153,7 +153,9 @@ void encode_health(const LinkState& state, RegisterImage& image) {
   valid.bit(Bit::k2);
   valid.value(kLampNow, health.lamp_permille >= 0, health.lamp_permille);
   valid.bit(Bit::k3);
-  image.set(kLampModeNow, health.lamp_dimmed ? 1 : 0);
+  image.set(kLampModeNow, !health.lamp_dimmed     ? 0
+                          : health.lamp_automatic ? kLampAutomatic
+                                                  : kLampCommanded);
   valid.value(kFields, health.fields >= 0, health.fields & INT32_MAX);
   valid.value(kFieldsMissing, health.fields_missing >= 0, health.fields_missing & INT32_MAX);
   valid.value(kFieldsLate, health.fields_late >= 0, health.fields_late & INT32_MAX);

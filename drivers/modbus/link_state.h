@@ -33,6 +33,7 @@ struct LinkHealth {
   std::int64_t fields = -1;         ///< counters of the box; below 0: not known
   std::int64_t fields_missing = -1;
   std::int64_t fields_late = -1;
+  bool lamp_automatic = false;  ///< the level is the box's own, which follows the picture
 };
 
 /// What has come over the line so far, and how long the box took.

@@ -60,6 +60,10 @@ inline constexpr std::int32_t kCommandBits = 5;
 inline constexpr std::int32_t kResultTaken = 1;
 inline constexpr std::int32_t kResultRefused = 2;
 
+/// Registers lamp_mode, as wanted, and lamp_mode_now, as it is; there 0 is a lamp that nobody dims.
+inline constexpr std::int32_t kLampCommanded = 1;
+inline constexpr std::int32_t kLampAutomatic = 2;
+
 /// The register pose_result.
 [[nodiscard]] constexpr std::int32_t code_of(core::PoseVerdict verdict) {
   return static_cast<std::int32_t>(verdict) + 1;

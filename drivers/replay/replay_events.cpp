@@ -118,7 +118,9 @@ bool parse_claim(std::string_view text, Event& event) {
 
 bool parse_lamp(std::string_view text, Event& event) {
   core::LampCommand lamp;
-  const bool good = parse_whole(text, lamp.permille) && lamp.permille >= 0 && lamp.permille <= 1000;
+  lamp.automatic = text == "auto";
+  const bool good = lamp.automatic || (parse_whole(text, lamp.permille) && lamp.permille >= 0 &&
+                                       lamp.permille <= 1000);
   event.content = lamp;
   return good;
 }

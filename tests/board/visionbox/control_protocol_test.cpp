@@ -117,8 +117,12 @@ TEST(ReplyAnswer, TellsWhatTheBoxSaid) {
             R"("text":"no tube stands there"})");
   reply.content = core::LampReply{300};
   EXPECT_EQ(reply_answer("lamp", reply),
-            R"({"protocol":1,"ok":true,"command":"lamp","permille":300,)"
+            R"({"protocol":1,"ok":true,"command":"lamp","permille":300,"automatic":false,)"
             R"("text":"300 permille wanted from now on"})");
+  reply.content = core::LampReply{700, true};
+  EXPECT_EQ(reply_answer("lamp", reply),
+            R"({"protocol":1,"ok":true,"command":"lamp","permille":700,"automatic":true,)"
+            R"("text":"700 permille now, by the picture from now on"})");
 }
 
 }  // namespace

@@ -331,5 +331,38 @@ TEST_F(HonestTime, ALampCommandIsServedWhereSomebodyDims) {
   EXPECT_EQ(run_.output().lamp_permille, 430) << "until another level is commanded";
 }
 
+TEST_F(HonestTime, ABoxWithALevelOfItsOwnTakesItAgain) {
+  run_.take_lamp({true, false, 1, kFullLamp_permille});
+  run_.lamp_dimmed(true);
+  run_.step(kOverTube);
+  EXPECT_TRUE(run_.output().lamp_automatic);
+  const std::int32_t own = run_.output().lamp_permille;
+
+  run_.add(tests::event_of(LampCommand{430}));
+  run_.step(kOverTube);
+  EXPECT_FALSE(only_reply<LampReply>().automatic);
+  EXPECT_FALSE(run_.output().lamp_automatic) << "commanded";
+  EXPECT_EQ(run_.output().lamp_permille, 430);
+
+  run_.add(tests::event_of(LampCommand{0, true}));
+  run_.step(kOverTube);
+  EXPECT_TRUE(only_reply<LampReply>().automatic);
+  EXPECT_EQ(only_reply<LampReply>().permille, own);
+  EXPECT_TRUE(run_.output().lamp_automatic);
+  EXPECT_EQ(run_.output().lamp_permille, own);
+}
+
+TEST_F(HonestTime, ABoxWithoutALevelOfItsOwnKeepsWhatWasCommanded) {
+  run_.lamp_dimmed(true);
+  run_.add(tests::event_of(LampCommand{430}));
+  run_.step(kOverTube);
+  run_.add(tests::event_of(LampCommand{0, true}));
+  run_.step(kOverTube);
+  EXPECT_EQ(run_.output().replies.size(), 1);
+  EXPECT_NE(content_if<NotServedReply>(run_.output().replies[0]), nullptr);
+  EXPECT_EQ(run_.output().lamp_permille, 430);
+  EXPECT_FALSE(run_.output().lamp_automatic);
+}
+
 }  // namespace
 }  // namespace tubesight::core::session

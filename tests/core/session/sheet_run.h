@@ -77,6 +77,7 @@ class SheetRun {
     ASSERT_TRUE(session_->configure(*settings).has_value());
   }
 
+  void take_lamp(const lighting::LampPolicy& policy) { session_->take_lamp(policy); }
   void lamp_dimmed(bool dimmed) { input_.lamp_dimmed = dimmed; }
   void add(const Event& event) { ASSERT_TRUE(input_.events.try_push_back(event)); }
 

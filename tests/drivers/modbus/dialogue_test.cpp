@@ -165,6 +165,22 @@ TEST(DialogueCommand, LampIsTakenOrNotServed) {
   EXPECT_EQ(bench.get(kLampTaken), kUnknownWord);
 }
 
+TEST(DialogueCommand, LampGoesBackToTheBoxsOwnLevel) {
+  LinkBench bench;
+  ASSERT_EQ(bench.set(kLampMode, 2), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 4), Refusal::kNone);
+  const core::Event event = bench.take_event();
+  EXPECT_TRUE(content_of<core::LampCommand>(event).automatic);
+  bench.reply(event.id, core::LampReply{710, true});
+  EXPECT_EQ(bench.get(kLampResult), 1);
+  EXPECT_EQ(bench.get(kLampTaken), 710);
+
+  ASSERT_EQ(bench.set(kLampMode, 1), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 0), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 4), Refusal::kNone);
+  EXPECT_FALSE(content_of<core::LampCommand>(bench.take_event()).automatic);
+}
+
 TEST(DialogueCommand, PoseComesAfterItsRequestIsTakenWithACorrection) {
   LinkBench bench;
   ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);
@@ -242,6 +258,7 @@ TEST(DialogueCommand, RefusesValuesOutOfTheirLimits) {
   EXPECT_EQ(bench.set(kCommand, 32), Refusal::kIllegalValue);
   EXPECT_EQ(bench.set(kLampLevel, 1001), Refusal::kIllegalValue);
   EXPECT_EQ(bench.set(kLampMode, 0), Refusal::kIllegalValue);
+  EXPECT_EQ(bench.set(kLampMode, 3), Refusal::kIllegalValue);
   EXPECT_EQ(bench.set(kStartConfirm, 2), Refusal::kIllegalValue);
   ASSERT_EQ(bench.set(kPickU, -1), Refusal::kNone) << "halves of a value may look odd";
   EXPECT_EQ(bench.set(kCommand, 2), Refusal::kIllegalValue);

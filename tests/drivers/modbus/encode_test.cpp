@@ -145,7 +145,11 @@ TEST(EncodeHealth, SaysWhatIsKnownOfLampAndCamera) {
   EXPECT_EQ(bench.get(kLampHealth), 2);
   EXPECT_EQ(bench.get(kLampPattern), 1);
   EXPECT_EQ(bench.get(kLampNow), 640);
-  EXPECT_EQ(bench.get(kLampModeNow), 1);
+  EXPECT_EQ(bench.get(kLampModeNow), 1) << "commanded";
+  bench.state.health.lamp_automatic = true;
+  EXPECT_EQ(bench.get(kLampModeNow), 2) << "the box's own";
+  bench.state.health.lamp_dimmed = false;
+  EXPECT_EQ(bench.get(kLampModeNow), 0) << "nobody dims it";
   EXPECT_EQ(bench.get(kFields), 100);
   EXPECT_EQ(bench.get(kFieldsMissing), 3);
   EXPECT_EQ(bench.get(kFieldsLate), 2);

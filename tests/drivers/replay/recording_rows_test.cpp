@@ -110,6 +110,25 @@ TEST(EventRows, KeepIdInstantAndWhatTheClickerSaw) {
   EXPECT_EQ(list[2].at, core::FieldTime(0));
 }
 
+TEST(EventRows, ALampCommandIsALevelOrTheBoxsOwn) {
+  std::string text = std::string(kEventsHeader) + "\n";
+  core::Event event;
+  event.content = core::LampCommand{430};
+  append_event_row(text, 3, event);
+  event.content = core::LampCommand{0, true};
+  append_event_row(text, 3, event);
+
+  ReplayEvents events;
+  Messages messages;
+  ASSERT_TRUE(events.parse(text, "e", messages)) << messages.front();
+  core::EventList list;
+  events.take_before(3, list);
+  ASSERT_EQ(list.size(), 2);
+  EXPECT_EQ(tests::content_of<core::LampCommand>(list[0]).permille, 430);
+  EXPECT_FALSE(tests::content_of<core::LampCommand>(list[0]).automatic);
+  EXPECT_TRUE(tests::content_of<core::LampCommand>(list[1]).automatic);
+}
+
 TEST(MetaRows, AreReadBackByReplay) {
   std::string text = std::string(kMetaHeader) + "\n";
   core::Field field;
