@@ -298,6 +298,18 @@ at_s = 0.125
 for_s = 0.125
 steps = [2, -4]
 
+[[fault]]
+kind = "skip"
+at_s = 0.125
+for_s = 0.125
+
+[[fault]]
+kind = "pose-step"
+at_s = 0.125
+for_s = 0.125
+by_mm = [0.125, -0.25, 3.5]
+by_deg = [0.5, -0.5, 2.5]
+
 [[event]]
 at_s = 0.5
 kind = "claim"

@@ -118,7 +118,7 @@ TEST(ScenarioText, TellsEveryKeyOfTheTestFromItsDefault) {
     plain += "[[fault]]\nat_s = 0.5\nkind = \"" + std::string(kind) + "\"\n";
     const bool steps = kind == "jump" || kind == "other-camera";
     plain += kind == "lamps-dead" ? "lamps = [2]\n" : steps ? "steps = [2, 2]\n" : "";
-    plain += kind == "vibration" || kind == "lamp-drift" ? "for_s = 0.5\n" : "";
+    plain += kind == "vibration" || kind == "lamp-drift" || kind == "skip" ? "for_s = 0.5\n" : "";
   }
   const Reading read(plain);
   ASSERT_TRUE(read.good) << read.messages.front();
