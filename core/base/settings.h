@@ -87,6 +87,15 @@ struct StartSettings {
 struct MotionSettings {
   double max_speed_mm_s = 300.0;
   double max_acceleration_mm_s2 = 3000.0;
+  // Of the height; zero: as over the sheet.
+  double max_height_speed_mm_s = 0.0;
+  double max_height_acceleration_mm_s2 = 0.0;
+  // Of the heading.
+  double max_turn_speed_deg_s = 360.0;
+  double max_turn_acceleration_deg_s2 = 1500.0;
+  // Of the lean, in any direction.
+  double max_lean_speed_deg_s = 30.0;
+  double max_lean_acceleration_deg_s2 = 1000.0;
 };
 
 /// Start values of the dynamic thresholds; the table `[edges]`. Zero: the program's own.

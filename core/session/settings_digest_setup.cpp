@@ -36,8 +36,10 @@ std::uint64_t settings_digest(const SessionSettings& settings) {
   stream(position, rotation);
   const auto& [clicks, window, optimum] = start;
   stream(window, optimum);
-  const auto& [speed, acceleration] = motion;
-  stream(speed, acceleration);
+  const auto& [speed, acceleration, height_speed, height_acceleration, turn_speed,
+               turn_acceleration, lean_speed, lean_acceleration] = motion;
+  stream(speed, acceleration, height_speed, height_acceleration, turn_speed, turn_acceleration,
+         lean_speed, lean_acceleration);
   const auto& [initial, region] = edges;
   stream(initial, region);
   const auto& [aligned_within, claim_within, claim_oldest] = verification;

@@ -11,7 +11,7 @@ namespace tubesight::core::tracking {
 ///
 /// One field torn, repeated or of noise is passed over; three in a row are a jump. What comes
 /// behind one may be another false picture that happens to fit, so two in a row must agree before a
-/// tube is named again.
+/// tube is named again, on three tube-ends each: two fit any pattern somewhere.
 class Doubt {
  public:
   void clear() { *this = {}; }
@@ -22,10 +22,12 @@ class Doubt {
     to_agree_ = kMustAgree;
     ++contradictions_;
   }
-  /// A field was believed.
-  void agree() {
+  /// A field was believed, on so many tube-ends.
+  void agree(std::int32_t tube_ends) {
     contradictions_ = 0;
-    to_agree_ = std::max(to_agree_ - 1, 0);
+    if (tube_ends >= kFewest) {
+      to_agree_ = std::max(to_agree_ - 1, 0);
+    }
   }
 
   /// The last picture that was good refuted the prediction.
@@ -49,6 +51,7 @@ class Doubt {
  private:
   static constexpr std::int32_t kMostContradictions = 2;
   static constexpr std::int32_t kMustAgree = 2;
+  static constexpr std::int32_t kFewest = 3;
 
   std::int32_t contradictions_ = 0;  ///< fields in a row that refuted the prediction
   std::int32_t to_agree_ = 0;        ///< fields that must agree before a tube is named again

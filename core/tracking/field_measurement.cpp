@@ -173,7 +173,10 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       ++count.bright;
       static_cast<void>(record.sites.bright.try_push_back(candidate.address));
     }
-    count.disagreeing += finding == Finding::kDisagrees ? 1 : 0;
+    if (finding == Finding::kDisagrees) {
+      ++count.disagreeing;
+      static_cast<void>(record.sites.dark.try_push_back(candidate.address));
+    }
     MeasurementBounds around = bounds;
     around.range_px = look.range_px;
     note_plug<S>(field, candidate.address, rim.center, box, around, finding, record);

@@ -69,11 +69,13 @@ struct SiteSightings {
   List open;    ///< and should be closed
   List closed;  ///< as they should be
   List bright;  ///< and should be open tube-ends
+  List dark;    ///< as they should be, but not measured
 
   void clear() {
     open.clear();
     closed.clear();
     bright.clear();
+    dark.clear();
   }
 };
 

@@ -1,7 +1,6 @@
 #include "core/tracking/field_order_watch.h"
 
 #include "core/base/instantiate.h"
-#include "core/base/overflow.h"
 
 namespace tubesight::core::tracking {
 
@@ -37,14 +36,8 @@ void FieldOrderWatch<S>::look_aside(const Field& field, const SheetPose<S>& last
   if (!aside_known_) {
     return;
   }
-  // A number that leaves its range here costs this look alone, and one from before is kept.
-  const bool overflowed = take_overflow_flag();
   const Observation<S> seen = observer.glance(field.pixels, {aside_, reach_mm, true});
-  const bool overflowed_aside = take_overflow_flag();
-  if (overflowed) {
-    raise_overflow_flag();
-  }
-  aside_known_ = !overflowed_aside && seen.fitted && !seen.contradiction;
+  aside_known_ = seen.fitted && !seen.contradiction;
   if (!aside_known_) {
     order_.miss();
     return;

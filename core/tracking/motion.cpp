@@ -96,6 +96,17 @@ Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> spa
   return times(times(std::min(place_mm, most), root_two), std::min(ratio, most));
 }
 
+// A small turn w takes each axis e to e' = e + w x e. Over three axes at right angles the sum of
+// e x e' = w - e (e . w) is 3 w - w, so w is half of it.
+template <Scalar S>
+Vector3<Mm<S>> turn_between(const SheetPose<S>& before, const SheetPose<S>& after) {
+  using M = Mm<S>;
+  const auto twice = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
+                     cross<M>(before.normal, after.normal);
+  const M half = constant<M>(0.5);
+  return {times(twice.x, half), times(twice.y, half), times(twice.z, half)};
+}
+
 template <Scalar S>
 Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,
                          const SheetPose<S>& after, const ToolPoint<S>& tool_after,
@@ -112,13 +123,10 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   const auto moved = tool_after.local - tool_before.local;
   motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
   motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
-  // A small turn w takes each axis e to e' = e + w x e. Over three axes at right angles the sum of
-  // e x e' = w - e (e . w) is 3 w - w, so w is half of it.
-  const auto turn = cross<M>(before.x_axis, after.x_axis) + cross<M>(before.y_axis, after.y_axis) +
-                    cross<M>(before.normal, after.normal);
+  const auto turn = turn_between<S>(before, after);
   const M half = constant<M>(0.5);
   const auto smoothed = [&](M turned, M rate_before) {
-    const M now = times(rate(times(turned, half)), half);
+    const M now = times(rate(turned), half);
     return last.known ? now + times(rate_before, half) : now;
   };
   motion.turn_rad_s = {smoothed(turn.x, last.turn_rad_s.x), smoothed(turn.y, last.turn_rad_s.y),
@@ -134,6 +142,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \
   template Mm<S> address_limit_mm<S>(const TrackingModel<S>&);                                     \
   template Mm<S> velocity_deviation_mm<S>(const Motion<S>&, Mm<S>, Unit<S>);                       \
+  template Vector3<Mm<S>> turn_between<S>(const SheetPose<S>&, const SheetPose<S>&);               \
   template Motion<S> motion_between<S>(const SheetPose<S>&, const ToolPoint<S>&,                   \
                                        const SheetPose<S>&, const ToolPoint<S>&, const Motion<S>&, \
                                        Unit<S>);

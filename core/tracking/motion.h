@@ -71,6 +71,10 @@ template <Scalar S>
 template <Scalar S>
 [[nodiscard]] Mm<S> velocity_deviation_mm(const Motion<S>& motion, Mm<S> place_mm, Unit<S> span_s);
 
+/// The small turn from one pose to another, rad, camera axes; to the third order.
+template <Scalar S>
+[[nodiscard]] Vector3<Mm<S>> turn_between(const SheetPose<S>& before, const SheetPose<S>& after);
+
 /// The motion from one fitted pose to the next; both with the same anchor.
 template <Scalar S>
 [[nodiscard]] Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_before,

@@ -4,6 +4,7 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/base/overflow.h"
 #include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
 
@@ -36,6 +37,32 @@ PosePrior<S> prior_of(const TrackingModel<S>& model, const Expectation<S>& expec
     prior.height_weight = scaled(constant<M>(0.16));
   }
   return prior;
+}
+
+// In the fit's unknowns, w in 1/128 rad: heading n . w, lean x . w and y . w, height
+// n . t + (n x arm) . w where arm leads from the tip to the anchor.
+template <Scalar S>
+AttitudeDeviation<S> attitude_deviation(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                        const NormalEquations<S>& equations, Mm<S> excess) {
+  using M = Mm<S>;
+  const M scale = times(from_scaled<M>(kEdgeDeviationQ10, 10), excess);
+  const M per_unknown = constant<M>(1.0 / 128.0);
+  const auto scaled = [scale](M deviation) {
+    return times(scale, std::min(deviation, constant<M>(30.0)));
+  };
+  const auto turn = [&](const Vector3<Unit<S>>& axis) {
+    return times(scaled(equations.deviation(
+                     {convert<M>(axis.x), convert<M>(axis.y), convert<M>(axis.z), M{}, M{}, M{}})),
+                 per_unknown);
+  };
+  const Vector3<M> lever = cross<M>(pose.normal, pose.origin - model.tip_mm);
+  AttitudeDeviation<S> known;
+  known.heading_rad = turn(pose.normal);
+  known.lean_rad = plane_length(Vector2<M>{turn(pose.x_axis), turn(pose.y_axis)});
+  known.height_mm = scaled(equations.deviation(
+      {times(lever.x, per_unknown), times(lever.y, per_unknown), times(lever.z, per_unknown),
+       convert<M>(pose.normal.x), convert<M>(pose.normal.y), convert<M>(pose.normal.z)}));
+  return known;
 }
 
 }  // namespace
@@ -79,6 +106,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     range_px = kBisectedRange * step_px;
   }
   const FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  seen.looked_at = found.looked_at;
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
   seen.contradiction = found.bright > std::max(seen.fit.used, 2) ||
                        (expected.confirm_all && 2 * found.measured < found.looked_at);
@@ -95,6 +123,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
   // of a rim point's fit is known to some 0.125 px then.
   const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));
   seen.picture_deviation_mm = times(tool_point_deviation<S>(seen.pose, *tool, equations_), excess);
+  seen.attitude = attitude_deviation<S>(*model_, seen.pose, equations_, excess);
   // Independent of each other: sqrt(picture^2 + systematic^2).
   seen.deviation_mm =
       plane_length(Vector2<M>{seen.picture_deviation_mm, systematic_deviation_mm<M>()});
@@ -130,7 +159,14 @@ Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectatio
   // What is learnt of light and plugs is learnt from pictures that are believed.
   const LightLevels light = record_.light;
   const PlugMemory plugs = record_.plugs;
-  const Observation<S> seen = observe(field, expected);
+  const bool overflowed = take_overflow_flag();
+  Observation<S> seen = observe(field, expected);
+  if (take_overflow_flag()) {
+    seen.fitted = false;
+  }
+  if (overflowed) {
+    raise_overflow_flag();
+  }
   record_.light = light;
   record_.plugs = plugs;
   return seen;

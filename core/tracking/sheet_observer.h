@@ -28,26 +28,45 @@ struct Expectation {
   bool confirm_all = false;  ///< half of the tube-ends looked at must be there
 };
 
+/// How well height, heading and lean are known, one standard deviation each.
+template <Scalar S>
+struct AttitudeDeviation {
+  Mm<S> height_mm{};
+  Mm<S> heading_rad{};
+  Mm<S> lean_rad{};
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [height, heading, lean] = self;
+    stream(height, heading, lean);
+  }
+};
+
 /// What a look at one field found.
 template <Scalar S>
 struct Observation {
   bool fitted = false;             ///< pose, tool and deviations are valid
   Reason trouble = Reason::kNone;  ///< why it is not fitted
   bool contradiction = false;      ///< the picture is good and refutes the expectation
+  std::int32_t looked_at = 0;      ///< tube-ends that should be seen wholly
   PoseFit<S> fit{};
   SheetPose<S> pose{};
   ToolPoint<S> tool{};
   Mm<S> deviation_mm{};          ///< of the tool on the sheet, one standard deviation
   Mm<S> picture_deviation_mm{};  ///< the picture's share of it
+  AttitudeDeviation<S> attitude{};
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [is_fitted, why_not, refuted, fitting, sheet, tool_at, deviation, picture_deviation] =
-        self;
+    auto& [is_fitted, why_not, refuted, looked, fitting, sheet, tool_at, deviation,
+           picture_deviation, attitudes] = self;
     stream(is_fitted);
     stream.choice(why_not, kLastReason);
-    stream(refuted, fitting, sheet, tool_at, deviation, picture_deviation);
+    stream(refuted);
+    stream.number(looked, 0, 2 * kMaxTubesInView);
+    stream(fitting, sheet, tool_at, deviation, picture_deviation, attitudes);
   }
 };
 
@@ -76,7 +95,8 @@ class SheetObserver {
   /// Looks where the tube-ends are expected. Some 19,000 instructions a tube-end in view.
   [[nodiscard]] Observation<S> observe(const FieldView& field, const Expectation<S>& expected);
 
-  /// observe() that learns nothing: for a picture that is not believed.
+  /// observe() that learns nothing: for a picture that is not believed. A number that leaves its
+  /// range costs this look alone: it shows nothing then.
   [[nodiscard]] Observation<S> glance(const FieldView& field, const Expectation<S>& expected);
 
   /// The operator's clicks as a rough pose: find_start_pose() with this observer's light.

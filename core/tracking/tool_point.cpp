@@ -2,7 +2,9 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/tracking/plane_length.h"
 #include "core/tracking/pose_fit.h"
+#include "core/tracking/projection.h"
 
 namespace tubesight::core::tracking {
 
@@ -49,11 +51,48 @@ Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
   return times(square_root(times(x, x) + times(y, y)), from_scaled<M>(kEdgeDeviationQ10, 10));
 }
 
+// On the image plane at unit distance: p the site, t the tip, and d the unit vector from t along
+// the guidetube. It is hidden where it is not farther beside the line than half the guidetube and a
+// bore, and not as far before its end.
+template <Scalar S>
+bool clear_of_guidetube(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                        TubeAddress address) {
+  using M = Mm<S>;
+  const auto on_plane = [](const Vector3<M>& point) -> std::optional<Vector2<M>> {
+    const auto plane = to_plane<S>(point);
+    return plane ? std::optional(Vector2<M>{convert<M>(plane->x), convert<M>(plane->y)})
+                 : std::nullopt;
+  };
+  const auto& axis = model.virtual_plane.normal();
+  const M back = constant<M>(-16.0);  // mm along the guidetube
+  const auto tip = on_plane(model.tip_mm);
+  const auto behind = on_plane(
+      model.tip_mm + Vector3<M>{times(back, axis.x), times(back, axis.y), times(back, axis.z)});
+  const auto site = on_plane(pose.origin + pose.along(model.lattice.offset(pose.anchor, address)));
+  if (!tip || !behind || !site) {
+    return false;
+  }
+  const Vector2<M> along = *behind - *tip;
+  const M length = plane_length(along);
+  if (length < constant<M>(0.01)) {
+    return false;
+  }
+  const M half = times(model.lattice.parameters().shortest_step, constant<M>(0.5));
+  const M thick = quotient<M>(half + model.bore_radius_mm, model.tip_mm.z);
+  const Vector2<M> from_tip = *site - *tip;
+  const M forward =
+      quotient<M>(narrow<M>(product(from_tip.x, along.x) + product(from_tip.y, along.y)), length);
+  const M aside =
+      quotient<M>(narrow<M>(product(from_tip.x, along.y) - product(from_tip.y, along.x)), length);
+  return forward < -thick || absolute(aside) > thick;
+}
+
 #define TUBESIGHT_INSTANTIATE(S)                                                   \
   template std::optional<ToolPoint<S>> find_tool_point<S>(const TrackingModel<S>&, \
                                                           const SheetPose<S>&);    \
   template Mm<S> tool_point_deviation<S>(const SheetPose<S>&, const ToolPoint<S>&, \
-                                         const NormalEquations<S>&);
+                                         const NormalEquations<S>&);               \
+  template bool clear_of_guidetube<S>(const TrackingModel<S>&, const SheetPose<S>&, TubeAddress);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

@@ -38,4 +38,11 @@ template <Scalar S>
 [[nodiscard]] Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
                                          const NormalEquations<S>& equations);
 
+/// Whether the guidetube surely does not stand before a tube's site, wherever it is seen from: in
+/// the picture the site is clear of the guidetube, which runs from its tip away from the sheet and
+/// is taken to be as thick as the shortest lattice step. False where that cannot be told.
+template <Scalar S>
+[[nodiscard]] bool clear_of_guidetube(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                                      TubeAddress address);
+
 }  // namespace tubesight::core::tracking

@@ -2,6 +2,7 @@
 
 #include "core/base/constant.h"
 #include "core/base/overflow.h"
+#include "core/tracking/attitude_gate.h"
 #include "core/tracking/confirmed_start.h"
 
 namespace tubesight::core::tracking {
@@ -44,11 +45,13 @@ void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks)
   primary_.forget();
   motion_ = {};
   doubt_.clear();
+  refuted_.forget();
   old_pictures_.begin();
   clock_.begin();
   order_.begin();
   observer_.begin();
   map_watch_.begin();
+  sites_.begin();
   if (field.status != FieldStatus::kGood) {
     start_refusal_ = StartRefusal::kPicture;
     return;
@@ -96,7 +99,7 @@ void Tracker<S, Margin>::follow(const Field& field) {
   const Observation<S> seen =
       observer_.observe(field.pixels, {predicted, gate_.believed_mm(), motion_.known});
   if (seen.contradiction) {
-    doubt(seen.trouble == Reason::kNone ? Reason::kJump : seen.trouble, field, predicted);
+    doubt(seen.trouble == Reason::kNone ? Reason::kJump : seen.trouble, field, predicted, seen);
     return;
   }
   if (!seen.fitted) {
@@ -104,7 +107,11 @@ void Tracker<S, Margin>::follow(const Field& field) {
     return;
   }
   if (const Reason refused = gate(seen, predicted, span_s); refused != Reason::kNone) {
-    doubt(refused, field, predicted);
+    doubt(refused, field, predicted, seen);
+    return;
+  }
+  if (refuted_.come_back(field, {seen.pose.anchor, seen.tool.local, seen.deviation_mm})) {
+    lose(Reason::kJump);
     return;
   }
   motion_ = motion_between<S>(good_.pose, good_.tool, seen.pose, seen.tool, motion_, span_s);
@@ -130,8 +137,11 @@ Reason Tracker<S, Margin>::gate(const Observation<S>& seen, const SheetPose<S>& 
   if (!expected) {
     return Reason::kJump;
   }
-  return gate_.refuses(seen.tool.local, seen.deviation_mm, expected->local, good_.tool.local,
-                       span_s);
+  const Reason place =
+      gate_.refuses(seen.tool.local, seen.deviation_mm, expected->local, good_.tool.local, span_s);
+  return place != Reason::kNone ? place
+                                : refuses_attitude<S>(*model_, seen, predicted, expected->height_mm,
+                                                      good_, motion_, span_s);
 }
 
 // Believes what the field shows. The motion is that from the field believed before to this one.
@@ -141,7 +151,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   judged_ = true;
   gate_.close(seen.deviation_mm, seen.picture_deviation_mm);
   clock_.believe(field);
-  doubt_.agree();
+  doubt_.agree(seen.fit.used);
   old_pictures_.believe(rests<S>(motion_));
   order_.believe(field, seen.tool.local);
   last_place_.believe(field, seen.pose.anchor, seen.tool.local);
@@ -150,6 +160,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   reanchor();
   shown_ = {good_.pose, good_.tool};
   watch_map();
+  remember_sites();
   if (Margin::kChecked && order_.wrong()) {
     lose(Reason::kFieldOrder);
   } else if (Margin::kChecked && map_watch_.refuted()) {
@@ -165,11 +176,29 @@ void Tracker<S, Margin>::watch_map() {
   }
 }
 
+template <Scalar S, typename Margin>
+void Tracker<S, Margin>::remember_sites() {
+  const FieldRecord<S>& record = observer_.record();
+  for (const auto& tube : record.measured) {
+    sites_.saw_dark(tube.address);
+  }
+  for (const TubeAddress address : record.sites.dark) {
+    sites_.saw_dark(address);
+  }
+  if (!record.sites.bright.empty()) {
+    const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
+    for (const TubeAddress address : record.sites.bright) {
+      sites_.saw_bright(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+    }
+  }
+  sites_.end_field();
+}
+
 // How far a field that is believed can be relied on.
 template <Scalar S, typename Margin>
 void Tracker<S, Margin>::judge(const Observation<S>& seen) {
   const Mm<S> doubtful = constant<Mm<S>>(0.75);  // an offset of 2.5 mm means little
-  if (doubt_.lasts()) {
+  if (doubts()) {
     reason_ = doubt_.reason();
   } else if (seen.fit.used < 3) {
     reason_ = Reason::kFewTubes;
@@ -194,16 +223,44 @@ void Tracker<S, Margin>::reanchor() {
 
 // A good picture refutes the prediction.
 template <Scalar S, typename Margin>
-void Tracker<S, Margin>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted) {
+void Tracker<S, Margin>::doubt(Reason reason, const Field& field, const SheetPose<S>& predicted,
+                               const Observation<S>& seen) {
+  const bool jumped = motion_.known && is_jump(field, predicted, seen);
   if (motion_.known) {
     order_.look_aside(field, good_.pose, gate_.widest_look_mm(), doubt_.contradicted(), observer_);
   }
   doubt_.raise(reason);
-  if (doubt_.is_certainty() || !motion_.known) {
+  if (doubt_.is_certainty() || jumped || !motion_.known) {
     lose(order_.explains(clock_.usual_span_ns()) ? Reason::kFieldOrder : reason);
     return;
   }
   coast(reason, predicted);
+}
+
+// Whether a picture that refutes the prediction shows the sheet well, elsewhere: looked for in the
+// whole cell of a tube, as the pattern repeats beyond it.
+template <Scalar S, typename Margin>
+bool Tracker<S, Margin>::is_jump(const Field& field, const SheetPose<S>& predicted,
+                                 const Observation<S>& seen) {
+  const auto shows_sheet = [](const Observation<S>& look) {
+    return look.fitted && !look.contradiction && look.fit.used >= 3 &&
+           2 * look.fit.used > look.looked_at;
+  };
+  Observation<S> look = seen;
+  if (!shows_sheet(look)) {
+    const Mm<S> half = times(model_->lattice.parameters().shortest_step, constant<Mm<S>>(0.5));
+    look = observer_.glance(field.pixels, {predicted, half, true});
+  }
+  const auto expected = find_tool_point<S>(*model_, predicted);
+  if (!shows_sheet(look) || !expected) {
+    return false;
+  }
+  const Unit<S> a_field_s = seconds<S>(FieldTime(clock_.usual_span_ns()));
+  return refuted_.refute(
+      field, {look.pose.anchor, look.tool.local, look.deviation_mm},
+      {expected->local,
+       {times(motion_.velocity_mm_s.x, a_field_s), times(motion_.velocity_mm_s.y, a_field_s)},
+       gate_.believed_mm()});
 }
 
 // Passes over a field: the prediction stands for it.
@@ -250,7 +307,7 @@ void Tracker<S, Margin>::report(const Field& field, Sighting& sighting,
   }
   report_tubes<S>(observer_.record(), primary_, sighting, tubes);
   // After a picture that refuted the prediction nothing is said of the tool until two agree.
-  if (doubt_.lasts() || !knows_place()) {
+  if (doubts() || !knows_place()) {
     return;
   }
   report_axis<S>(*model_, shown_, motion_, sighting);
@@ -259,7 +316,8 @@ void Tracker<S, Margin>::report(const Field& field, Sighting& sighting,
   report_margin(margin, sighting);
   // Four standard deviations from the rounding limit, or the address is not said.
   const bool certain = !Margin::kChecked || margin >= constant<Mm<S>>(4.0);
-  if (certain && map_->state(nearest.address) != TubeState::kAbsent) {
+  if (certain && map_->state(nearest.address) != TubeState::kAbsent &&
+      sites_.vouches_for(nearest.address)) {
     report_tool<S>(*model_, shown_.pose, nearest, sighting);
   }
 }

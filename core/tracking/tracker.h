@@ -16,8 +16,10 @@
 #include "core/tracking/motion.h"
 #include "core/tracking/old_picture_watch.h"
 #include "core/tracking/primary_tube.h"
+#include "core/tracking/refuted_motion.h"
 #include "core/tracking/sheet_observer.h"
 #include "core/tracking/sheet_pose.h"
+#include "core/tracking/site_memory.h"
 #include "core/tracking/start.h"
 #include "core/tracking/tool_gate.h"
 #include "core/tracking/tracking_model.h"
@@ -39,7 +41,12 @@ template <Scalar S, typename Margin = MarginChecked>
 class Tracker {
  public:
   Tracker(const TrackingModel<S>& model, const tubesheet::SheetMap& map)
-      : model_(&model), map_(&map), gate_(model), order_(model), observer_(model, map) {}
+      : model_(&model),
+        map_(&map),
+        gate_(model),
+        refuted_(model),
+        order_(model),
+        observer_(model, map) {}
 
   /// Takes clicks made in the field that the next step() gets; a running track is given up, unless
   /// they put the tool where it cannot have come since it was seen last: then the start is refused
@@ -77,14 +84,14 @@ class Tracker {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [model, map, state, reason, clicks, start_refusal, good, motion, shown, judged, primary,
-           clock, gate, doubts, old_pictures, order, observer, last_place, map_watch, confirmed] =
-        self;
+           clock, gate, doubts, refuted, old_pictures, order, observer, last_place, map_watch,
+           sites, confirmed] = self;
     stream.choice(state, TrackState::kLost);
     stream.choice(reason, kLastReason);
     stream(clicks);
     stream.choice(start_refusal, kLastStartRefusal);
-    stream(good, motion, shown, judged, primary, clock, gate, doubts, old_pictures, order, observer,
-           last_place, map_watch, confirmed);
+    stream(good, motion, shown, judged, primary, clock, gate, doubts, refuted, old_pictures, order,
+           observer, last_place, map_watch, sites, confirmed);
   }
 
  private:
@@ -101,9 +108,14 @@ class Tracker {
                             Unit<S> span_s) const;
   void accept(const Observation<S>& seen, const Field& field);
   void watch_map();
+  void remember_sites();
   void judge(const Observation<S>& seen);
   void reanchor();
-  void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted);
+  void doubt(Reason reason, const Field& field, const SheetPose<S>& predicted,
+             const Observation<S>& seen);
+  [[nodiscard]] bool is_jump(const Field& field, const SheetPose<S>& predicted,
+                             const Observation<S>& seen);
+  [[nodiscard]] bool doubts() const { return doubt_.lasts() || refuted_.undecided(); }
   void coast(Reason reason, const SheetPose<S>& predicted);
   void lose(Reason reason);
   void report(const Field& field, Sighting& sighting, TubeSightingList& tubes) const;
@@ -125,11 +137,13 @@ class Tracker {
   FieldClock clock_{};
   ToolGate<S> gate_;
   Doubt doubt_{};
+  RefutedMotion<S> refuted_;
   OldPictureWatch old_pictures_{};
   FieldOrderWatch<S> order_;
   SheetObserver<S> observer_;
   LastPlace<S> last_place_{};
   MapWatch map_watch_{};
+  SiteMemory sites_{};
   bool confirmed_ = false;  ///< somebody insists on `clicks_`
 };
 

@@ -12,6 +12,13 @@
 
 namespace tubesight::core::tracking {
 
+/// How fast one of a pose's numbers may change.
+template <Scalar S>
+struct RateLimits {
+  Mm<S> speed{};         ///< mm/s or rad/s
+  Mm<S> acceleration{};  ///< m/s^2 or rad/s^2
+};
+
 /// What stays the same for a whole session, in the numbers of the path; made by
 /// make_tracking_model() in tracking_setup.h.
 template <Scalar S>
@@ -35,6 +42,9 @@ struct TrackingModel {
 
   Mm<S> max_speed_mm_s{};
   Mm<S> max_acceleration_m_s2{};  ///< in metres: 3000 mm/s^2 and more leave the format
+  RateLimits<S> height;
+  RateLimits<S> turn;
+  RateLimits<S> lean;
   Mm<S> aligned_within_mm{};
   std::int32_t initial_threshold = 200;
   std::int32_t region_threshold = 60;

@@ -5,10 +5,26 @@
 
 #include "core/base/instantiate.h"
 #include "core/base/transform.h"
+#include "core/base/trigonometry.h"
 #include "core/camera/camera_setup.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::core::tracking {
+namespace {
+
+// In radians they stay within the numbers.
+bool turns_in_range(double speed_deg_s, double acceleration_deg_s2) {
+  return speed_deg_s > 0.0 && speed_deg_s <= 1.0e5 && acceleration_deg_s2 > 0.0 &&
+         acceleration_deg_s2 <= 1.0e5;
+}
+
+template <Scalar S>
+RateLimits<S> turn_limits(double speed_deg_s, double acceleration_deg_s2) {
+  constexpr double kRad = kPi / 180.0;
+  return {Mm<S>(speed_deg_s * kRad), Mm<S>(acceleration_deg_s2 * kRad)};
+}
+
+}  // namespace
 
 template <Scalar S>
 Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<S>& model) {
@@ -28,7 +44,12 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   }
   const auto& motion = settings.motion;
   if (!(motion.max_speed_mm_s > 0.0 && motion.max_speed_mm_s <= 2000.0) ||
-      !(motion.max_acceleration_mm_s2 > 0.0 && motion.max_acceleration_mm_s2 <= 1.0e6)) {
+      !(motion.max_acceleration_mm_s2 > 0.0 && motion.max_acceleration_mm_s2 <= 1.0e6) ||
+      !(motion.max_height_speed_mm_s >= 0.0 && motion.max_height_speed_mm_s <= 2000.0) ||
+      !(motion.max_height_acceleration_mm_s2 >= 0.0 &&
+        motion.max_height_acceleration_mm_s2 <= 1.0e6) ||
+      !turns_in_range(motion.max_turn_speed_deg_s, motion.max_turn_acceleration_deg_s2) ||
+      !turns_in_range(motion.max_lean_speed_deg_s, motion.max_lean_acceleration_deg_s2)) {
     return Unexpected(Error::kOutOfRange);
   }
   const Transform<frames::Camera, frames::Tool> T_camera_tool(
@@ -50,6 +71,13 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   model.optimum_px = {Px<S>(settings.start.optimum_px[0]), Px<S>(settings.start.optimum_px[1])};
   model.max_speed_mm_s = Mm<S>(motion.max_speed_mm_s);
   model.max_acceleration_m_s2 = Mm<S>(motion.max_acceleration_mm_s2 / 1000.0);
+  model.height = {motion.max_height_speed_mm_s > 0.0 ? Mm<S>(motion.max_height_speed_mm_s)
+                                                     : model.max_speed_mm_s,
+                  motion.max_height_acceleration_mm_s2 > 0.0
+                      ? Mm<S>(motion.max_height_acceleration_mm_s2 / 1000.0)
+                      : model.max_acceleration_m_s2};
+  model.turn = turn_limits<S>(motion.max_turn_speed_deg_s, motion.max_turn_acceleration_deg_s2);
+  model.lean = turn_limits<S>(motion.max_lean_speed_deg_s, motion.max_lean_acceleration_deg_s2);
   model.aligned_within_mm = Mm<S>(settings.verification.aligned_within_mm);
   // Zero asks for the program's own.
   constexpr EdgeSettings kOwn;

@@ -60,6 +60,10 @@ void for_each_parameter(FaultKind kind, Visit visit) {
       visit(Three{"amplitude_deg", {0.0, 5.0, " degrees"}, &Fault::shake_deg});
       visit(Number{"frequency_hz", {0.1, 500.0, " Hz"}, &Fault::frequency_hz});
       break;
+    case FaultKind::kPoseStep:
+      visit(Three{"by_mm", {-20.0, 20.0, " mm"}, &Fault::shake_mm});
+      visit(Three{"by_deg", {-20.0, 20.0, " degrees"}, &Fault::shake_deg});
+      break;
     case FaultKind::kJump:
     case FaultKind::kOtherCamera: visit(kStepsKey); break;
     case FaultKind::kEmi:
@@ -70,6 +74,7 @@ void for_each_parameter(FaultKind kind, Visit visit) {
     case FaultKind::kDropped:
     case FaultKind::kRepeated:
     case FaultKind::kSaturated:
+    case FaultKind::kSkip:
     case FaultKind::kFrozen: break;
   }
 }
@@ -127,6 +132,7 @@ Fault usual(FaultKind kind) {
       fault.angle_deg = 0.3;
       break;
     case FaultKind::kVibration: fault.shake_mm = {0.2, 0.2, 0.0}; break;
+    case FaultKind::kPoseStep: fault.shake_deg = {0.0, 0.0, 4.0}; break;
     case FaultKind::kJump:
     case FaultKind::kOtherCamera: fault.columns = 1; break;
     case FaultKind::kEmi:
@@ -221,8 +227,9 @@ bool read_faults(drivers::SettingsDocument& document, const FaultContext& contex
     fault.for_s = read.for_s;
     for_each_parameter(fault.kind, [&](const auto& key) { read_key(table, key, fault); });
     check_parameters(table, context, fault);
-    if ((fault.kind == FaultKind::kVibration || fault.kind == FaultKind::kLampDrift) &&
-        fault.for_s <= 0.0) {
+    const bool needs_length = fault.kind == FaultKind::kVibration ||
+                              fault.kind == FaultKind::kLampDrift || fault.kind == FaultKind::kSkip;
+    if (needs_length && fault.for_s <= 0.0) {
       table.complain(kLength.key, "missing or 0, expected how long it lasts");
     }
     check_picture(table, fault, faults);

@@ -27,14 +27,16 @@ enum class FaultKind : std::uint8_t {
   kSaltPepper,   ///< single pixels are white or black
   kFrozen,       ///< the picture stands still, under new noise
   kOtherCamera,  ///< the picture of another toolhead, under another lamp with a pattern of its own
+  kSkip,         ///< a length of the path is left out, and nothing shows it
+  kPoseStep,     ///< the tool stands off at once, by height, heading or lean
 };
-inline constexpr std::int32_t kFaultKinds = 18;
+inline constexpr std::int32_t kFaultKinds = 20;
 
 /// The word of a kind in files: `dropped`, `signal-loss` ...; the order is that of the kinds.
 inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
-    "dropped",     "repeated", "torn",     "swapped",     "black",      "saturated",
-    "signal-loss", "knock",    "lamp-out", "lamps-dead",  "lamp-drift", "vibration",
-    "cut",         "jump",     "emi",      "salt-pepper", "frozen",     "other-camera"};
+    "dropped", "repeated",    "torn",       "swapped",      "black",     "saturated", "signal-loss",
+    "knock",   "lamp-out",    "lamps-dead", "lamp-drift",   "vibration", "cut",       "jump",
+    "emi",     "salt-pepper", "frozen",     "other-camera", "skip",      "pose-step"};
 
 [[nodiscard]] constexpr std::string_view name_of(FaultKind kind) {
   return kFaultWords[static_cast<std::size_t>(kind)];
@@ -42,8 +44,9 @@ inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
 
 /// One fault of a scenario. A field has it when its nominal mid-exposure is in [at_s, at_s +
 /// for_s); for_s = 0 is the first field at or after at_s, but for knock, lamp-out, lamps-dead,
-/// jump, frozen and other-camera, which then last to the end. Swapped and cut go by whole frames,
-/// whose instant is that of their first field. Vibration and lamp-drift need a length.
+/// jump, frozen, other-camera and pose-step, which then last to the end. Of a skip for_s is what is
+/// left out. Swapped and cut go by whole frames,
+/// whose instant is that of their first field. Vibration, lamp-drift and skip need a length.
 struct Fault {
   FaultKind kind = FaultKind::kDropped;
   double at_s = 0.0;                  ///< when it begins, from the recording's start
@@ -56,8 +59,9 @@ struct Fault {
   double angle_deg = 0.0;             ///< knock: by how much, right-handed
   std::array<double, 3> axis{};       ///< knock: about which axis of the camera frame, any length
   std::uint16_t lamps = 0;            ///< lamps-dead: bit n is lamp n
-  std::array<double, 3> shake_mm{};   ///< vibration: amplitude in the tool frame
-  std::array<double, 3> shake_deg{};  ///< vibration: amplitude about the tool's x, y, z
+  std::array<double, 3> shake_mm{};   ///< vibration: amplitude in the tool frame; pose-step
+  std::array<double, 3> shake_deg{};  ///< vibration: amplitude about the tool's x, y, z;
+                                      ///< pose-step
   double frequency_hz = 20.0;         ///< vibration
   std::int32_t rows = 0;              ///< jump, other-camera: lattice steps
   std::int32_t columns = 0;
@@ -69,7 +73,7 @@ struct Fault {
 [[nodiscard]] constexpr bool lasts_to_the_end(FaultKind kind) {
   return kind == FaultKind::kKnock || kind == FaultKind::kLampOut ||
          kind == FaultKind::kLampsDead || kind == FaultKind::kJump || kind == FaultKind::kFrozen ||
-         kind == FaultKind::kOtherCamera;
+         kind == FaultKind::kOtherCamera || kind == FaultKind::kPoseStep;
 }
 
 /// Whether a fault takes whole frames, by the instant of their first field.

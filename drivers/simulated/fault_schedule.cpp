@@ -29,8 +29,8 @@ bool at_work(const Fault& fault, const FieldSlot& slot) {
   if (time_s < fault.at_s) {
     return false;
   }
-  if (fault.kind == FaultKind::kLampDrift) {
-    return true;  // it stays where it drifted to
+  if (fault.kind == FaultKind::kLampDrift || fault.kind == FaultKind::kSkip) {
+    return true;  // it stays where it drifted to, and what was left out does not come
   }
   if (fault.for_s > 0.0) {
     return time_s < fault.at_s + fault.for_s;
@@ -98,6 +98,14 @@ void apply(const Fault& fault, const FieldSlot& slot, FieldFaults& to) {
     case FaultKind::kJump:
       to.jump[0] += fault.rows;
       to.jump[1] += fault.columns;
+      break;
+    case FaultKind::kSkip: to.skipped_s += fault.for_s; break;
+    case FaultKind::kPoseStep:
+      to.off =
+          to.off * core::Transform<core::frames::Tool, core::frames::Tool>(
+                       core::rotation_from_degrees(
+                           {fault.shake_deg[2], fault.shake_deg[1], fault.shake_deg[0]}),
+                       Eigen::Vector3d(fault.shake_mm[0], fault.shake_mm[1], fault.shake_mm[2]));
       break;
     default:
       apply_to_light(fault, slot.time_s, to);

@@ -40,6 +40,8 @@ struct FieldFaults {
       knock{};  ///< rotation of what is seen
   bool knocked = false;
   std::array<std::int32_t, 2> jump{};  ///< lattice steps, rows and columns
+  double skipped_s = 0.0;              ///< of the path
+  core::Transform<core::frames::Tool, core::frames::Tool> off{};  ///< pose-step
   double emi_share = 0.0;
   double emi_amplitude = 0.0;
   double salt_pepper_share = 0.0;

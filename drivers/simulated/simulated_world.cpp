@@ -8,6 +8,7 @@
 
 #include "core/tubesheet/sheet_places.h"
 #include "drivers/simulated/dice.h"
+#include "drivers/simulated/steps_like.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -67,6 +68,8 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
   unnumbered_ = 0;
   jump_ = {};
   told_ = {};
+  skip_ = {};
+  skipped_s_ = 0.0;
   gap_ = false;
   events_taken_ = 0;
   started_ = false;
@@ -120,13 +123,14 @@ Parity SimulatedWorld::parity_of(std::int64_t slot) const {
 }
 
 SimulatedWorld::SheetTool SimulatedWorld::pose_at(double time_s, const FieldFaults& faults) {
+  const double path_s = time_s + faults.skipped_s;
   const SheetTool pose =
-      motion_ != nullptr ? motion_->pose_at(time_s) : path_.state_at(time_s).T_sheet_tool;
+      motion_ != nullptr ? motion_->pose_at(path_s) : path_.state_at(path_s).T_sheet_tool;
   const auto jump_mm =
       core::tubesheet::move_mm(scenario_->scene.sheet, {faults.jump[0], faults.jump[1]});
   const core::Transform<core::frames::Sheet, core::frames::Sheet> jump(
       Eigen::Matrix3d::Identity(), Eigen::Vector3d(jump_mm[0], jump_mm[1], 0.0));
-  return jump * pose * shake_at(scenario_->faults, time_s);
+  return jump * pose * faults.off * shake_at(scenario_->faults, time_s);
 }
 
 FieldPixels SimulatedWorld::pixels_of(Parity parity) {
@@ -283,19 +287,38 @@ FieldTruth SimulatedWorld::look(std::int64_t number, const FieldFaults& faults, 
   return truth;
 }
 
+// How far what was left out of the path just now looks like a jump by lattice steps.
+std::array<std::int32_t, 2> SimulatedWorld::steps_of_skip(const SimulatedField& field) {
+  FieldFaults unskipped = field.faults;
+  unskipped.skipped_s = skipped_s_;
+  const double time_s = seconds_of(field.field.mid_exposure);
+  const Eigen::Vector3d way =
+      pose_at(time_s, field.faults).translation_mm() - pose_at(time_s, unskipped).translation_mm();
+  return steps_like(scenario_->scene.sheet, scenario_->told.motion, seconds_of(slot_time(1)),
+                    {way.x(), way.y()});
+}
+
 void SimulatedWorld::follow_slip(SimulatedField& out) {
+  if (out.faults.skipped_s > skipped_s_) {
+    const auto steps = steps_of_skip(out);
+    skip_[0] += steps[0];
+    skip_[1] += steps[1];
+    skipped_s_ = out.faults.skipped_s;
+  }
+  const std::array<std::int32_t, 2> jump{out.faults.jump[0] + skip_[0],
+                                         out.faults.jump[1] + skip_[1]};
   if (!out.lost) {
     const bool anew = std::any_of(out.events.begin(), out.events.end(), [](const core::Event& one) {
       return core::content_if<core::Start>(one) != nullptr;
     });
     for (std::size_t i = 0; i < jump_.size(); ++i) {
       if (anew) {
-        told_[i] = out.faults.jump[i];
+        told_[i] = jump[i];
       } else if (gap_) {
-        told_[i] += out.faults.jump[i] - jump_[i];
+        told_[i] += jump[i] - jump_[i];
       }
     }
-    jump_ = out.faults.jump;
+    jump_ = jump;
   }
   gap_ = out.lost;
   out.truth.slip = {jump_[0] - told_[0], jump_[1] - told_[1]};

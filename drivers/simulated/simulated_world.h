@@ -32,7 +32,8 @@ struct FieldTruth {
   core::rendering::AxisTruth axis{};  ///< where, and the nearest tube
   /// Lattice steps (rows, columns) of the jumps since the last start that nothing showed: a box on
   /// a bare lattice names the true tube less these. A jump within a gap in sequence or time is
-  /// told, and not in it. Of the fields that next() and next_slot() make.
+  /// told, and not in it. A skip counts as a jump where it looks like one. Of the fields that
+  /// next() and next_slot() make.
   std::array<std::int32_t, 2> slip{};
 };
 
@@ -127,6 +128,7 @@ class SimulatedWorld {
   FieldTruth look(std::int64_t slot, const FieldFaults& faults, Shutter& shutter);
   void expose(const Shutter& shutter, const SimulatedField& out);
   void draw(const core::rendering::Exposure& exposure, const FieldFaults& faults);
+  [[nodiscard]] std::array<std::int32_t, 2> steps_of_skip(const SimulatedField& field);
   void follow_slip(SimulatedField& out);
   void warm_lamp();
   [[nodiscard]] double following_share() const;
@@ -147,6 +149,8 @@ class SimulatedWorld {
   std::int64_t unnumbered_ = 0;         ///< lost without a sequence number
   std::array<std::int32_t, 2> jump_{};  ///< of the last field delivered
   std::array<std::int32_t, 2> told_{};  ///< of that, what a start or a gap let the box know
+  std::array<std::int32_t, 2> skip_{};  ///< lattice steps that what was left out is taken for
+  double skipped_s_ = 0.0;              ///< of the last field
   bool gap_ = false;                    ///< the last slot was not delivered
   std::size_t events_taken_ = 0;
   bool started_ = false;  ///< the clicks were handed over

@@ -157,7 +157,7 @@ LampResult LampRunner::run(const drivers::Scenario& scenario, const LampRun& run
   while (!judge.over() && box->turn()) {
     const drivers::SimulatedField& field = box->field();
     const double now_s = std::chrono::duration<double>(field.field.mid_exposure).count();
-    judge.take(now_s, judged_truth(field.truth), box->output());
+    judge.take(now_s, judged_truth(scenario, field.truth), box->output());
   }
   result.counts = judge.counts();
   result.named = judge.named();

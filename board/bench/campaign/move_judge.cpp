@@ -18,7 +18,7 @@ constexpr bool explained_by_slip(TubeAddress told, const FieldTruth& truth) {
 }  // namespace
 
 bool MoveJudge::truly_aligned(const FieldTruth& truth) const {
-  return truth.present && truth.offset_mm <= limits_.gate_mm - kGateSlack_mm;
+  return truth.present && truth.open && truth.offset_mm <= limits_.gate_mm - kGateSlack_mm;
 }
 
 void MoveJudge::visit(const FieldTruth& truth) {

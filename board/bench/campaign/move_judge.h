@@ -12,6 +12,7 @@ namespace tubesight::board::campaign {
 struct FieldTruth {
   core::TubeAddress nearest{};  ///< tube of the lattice nearest to the guidetube's axis
   bool present = true;          ///< a tube stands there, open or plugged
+  bool open = true;             ///< or told to be plugged: a box can vouch for it
   double offset_mm = 0.0;       ///< its distance from the axis
   /// drivers::FieldTruth::slip: a box that cannot have noticed names the true tube less these.
   core::TubeAddress slip{};

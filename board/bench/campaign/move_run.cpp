@@ -1,5 +1,6 @@
 #include "board/bench/campaign/move_run.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "board/bench/campaign/random_parts.h"
@@ -10,6 +11,13 @@ namespace tubesight::board::campaign {
 namespace {
 
 using core::rendering::TubeEndKind;
+
+// Whether a site is closed, and nobody told the box: it cannot vouch for a tube there.
+bool closed_untold(const drivers::Scenario& scenario, const core::rendering::NearestTube& nearest) {
+  const auto plugged = scenario.told.tubesheet.plugged.view();
+  return nearest.kind == TubeEndKind::kPlugFlush &&
+         std::find(plugged.begin(), plugged.end(), nearest.address) == plugged.end();
+}
 
 /// FNV-1a over what matters of the answers.
 class Digest {
@@ -35,11 +43,12 @@ class Digest {
 
 }  // namespace
 
-FieldTruth judged_truth(const drivers::FieldTruth& field) {
+FieldTruth judged_truth(const drivers::Scenario& scenario, const drivers::FieldTruth& field) {
   FieldTruth truth;
   const core::rendering::NearestTube& nearest = field.axis.nearest;
   truth.nearest = nearest.address;
   truth.present = field.axis_known && nearest.kind != TubeEndKind::kVoid;
+  truth.open = !closed_untold(scenario, nearest);
   truth.offset_mm = nearest.offset_mm;
   truth.slip = {field.slip[0], field.slip[1]};
   return truth;
@@ -66,7 +75,7 @@ MoveResult MoveRunner::play(const drivers::Scenario& scenario, bool stop_at_wron
     const core::Sighting& sighting = box->output().sighting;
     digest.add(sighting);
     const std::int64_t wrong_before = judge.first_wrong_field();
-    judge.take(judged_truth(field.truth), sighting);
+    judge.take(judged_truth(scenario, field.truth), sighting);
     if (wrong_before < 0 && judge.first_wrong_field() >= 0) {
       result.first_wrong_field = field.slot;
       if (stop_at_wrong) {
@@ -77,12 +86,13 @@ MoveResult MoveRunner::play(const drivers::Scenario& scenario, bool stop_at_wron
   if (judge.over()) {
     // The box says `lost` to the end: no need to draw that.
     for (std::int64_t slot = field.slot + 1; slot < world_->slots(); ++slot) {
-      const double time_s = std::chrono::duration<double>(world_->slot_time(slot)).count();
+      const double time_s = std::chrono::duration<double>(world_->slot_time(slot)).count() +
+                            world_->faults_at(slot).skipped_s;
       const auto axis = world_->truth().axis(world_->path().state_at(time_s).T_sheet_tool);
       drivers::FieldTruth unseen = field.truth;
       unseen.axis_known = axis.has_value();
       unseen.axis = axis.value_or(core::rendering::AxisTruth{});
-      judge.take_unseen(judged_truth(unseen));
+      judge.take_unseen(judged_truth(scenario, unseen));
     }
   }
   result.counts = judge.counts();

@@ -25,8 +25,9 @@ struct MoveResult {
   std::uint64_t digest = 0;             ///< of all that the box said
 };
 
-/// What of a world's truth a judge wants to know.
-[[nodiscard]] FieldTruth judged_truth(const drivers::FieldTruth& field);
+/// What of a world's truth a judge wants to know. `scenario`: what the box was told.
+[[nodiscard]] FieldTruth judged_truth(const drivers::Scenario& scenario,
+                                      const drivers::FieldTruth& field);
 
 /// Runs scenarios in memory: simulated world, session in fixed point, judge. Some MB, kept from
 /// scenario to scenario; one thread.

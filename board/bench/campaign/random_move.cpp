@@ -41,6 +41,10 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
     }
     draw_path(stratum, path, truth_->tube_ends(), scenario);
     draw_faults(stratum, faults, scenario);
+    draw_deceptions(stratum, seed, move, truth_->tube_ends(), scenario);
+    if (!truth_->configure(scenario.scene)) {
+      continue;
+    }
     leave_out_faults_of_fields(scenario);
     if (draw_clicks(clicks, *truth_, scenario)) {
       return;

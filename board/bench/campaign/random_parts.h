@@ -55,6 +55,13 @@ void draw_path(const Stratum& stratum, RandomSource& random, const core::renderi
 /// first few fields are spared, so that the start is sound. Needs plant and path.
 void draw_faults(const Stratum& stratum, RandomSource& random, drivers::Scenario& scenario);
 
+/// Draws, in a share of the moves and each from random numbers of its own, what came later than the
+/// groups of faults: a plug or void that nobody listed under a place where the tool rests; and
+/// in the place of a jump by lattice steps a length of the path left out, or a step of height,
+/// heading or lean. Needs plant, path and faults; the plant changes.
+void draw_deceptions(const Stratum& stratum, std::uint64_t seed, std::int64_t move,
+                     const core::rendering::TubeEnds& ends, drivers::Scenario& scenario);
+
 /// Draws an operator's three clicks into the first field: open tube-ends wholly in view near the
 /// optimum point, not in one line, each up to 60 % of the tube-end's radius off its middle.
 ///

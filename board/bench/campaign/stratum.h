@@ -18,7 +18,8 @@ enum class FaultGroup : std::uint8_t {
   kPicture,    ///< black, saturated or noise
   kLamp,       ///< the lamp fails or drifts, single lamps are dead
   kMechanics,  ///< the camera knocked loose, bursts of vibration
-  kJump,       ///< the sheet moves by lattice steps from one field to the next
+  kJump,       ///< the sheet moves by lattice steps from one field to the next, a part of the path
+               ///< is left out, or the tool stands off at once
 };
 /// How fast the tool moves.
 enum class SpeedBand : std::uint8_t {

@@ -55,6 +55,12 @@ optimum_px = [300.5, 170.0]
 [motion]
 max_speed_mm_s = 251.5
 max_acceleration_mm_s2 = 2001.0
+max_height_speed_mm_s = 201.5
+max_height_acceleration_mm_s2 = 1501.0
+max_turn_speed_deg_s = 301.5
+max_turn_acceleration_deg_s2 = 1201.0
+max_lean_speed_deg_s = 21.5
+max_lean_acceleration_deg_s2 = 501.0
 
 [edges]
 initial_threshold = 210
@@ -291,6 +297,18 @@ kind = "other-camera"
 at_s = 0.25
 for_s = 0.125
 steps = [2, -4]
+
+[[fault]]
+kind = "skip"
+at_s = 0.125
+for_s = 0.125
+
+[[fault]]
+kind = "pose-step"
+at_s = 0.125
+for_s = 0.125
+by_mm = [0.125, -0.25, 3.5]
+by_deg = [0.5, -0.5, 2.5]
 
 [[event]]
 at_s = 0.5

@@ -120,7 +120,8 @@ TEST(ScenarioText, TellsEveryKeyOfTheTestFromItsDefault) {
              std::string(kind) + "\"\n";
     const bool steps = kind == "jump" || kind == "other-camera";
     plain += kind == "lamps-dead" ? "lamps = [2]\n" : steps ? "steps = [2, 2]\n" : "";
-    const bool lasts = kind == "vibration" || kind == "lamp-drift" || kind == "frozen";
+    const bool lasts =
+        kind == "vibration" || kind == "lamp-drift" || kind == "frozen" || kind == "skip";
     plain += lasts ? "for_s = 0.5\n" : "";
   }
   const Reading read(plain);

@@ -36,13 +36,16 @@ class SessionSettings : public testing::Test {
 };
 
 TEST_F(SessionSettings, ReadsEveryTable) {
-  ASSERT_EQ(load(kWhole + "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
-                          "max_acceleration_mm_s2 = 2000.5\n[edges]\ninitial_threshold = 150\n"
-                          "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
-                          "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
-                          "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"m\"\nsigma "
-                          "= [1.0]\n[tool_quality]\n"
-                          "id = \"t1\"\nmade_at = 1995-08-01\n"),
+  ASSERT_EQ(load(kWhole +
+                 "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
+                 "max_acceleration_mm_s2 = 2000.5\nmax_height_speed_mm_s = 150\n"
+                 "max_height_acceleration_mm_s2 = 1000\nmax_turn_speed_deg_s = 600\n"
+                 "max_turn_acceleration_deg_s2 = 2000\nmax_lean_speed_deg_s = 25\n"
+                 "max_lean_acceleration_deg_s2 = 500\n[edges]\ninitial_threshold = 150\n"
+                 "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
+                 "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
+                 "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"m\"\nsigma = [1.0]\n[tool_quality]\n"
+                 "id = \"t1\"\nmade_at = 1995-08-01\n"),
             Messages{});
 
   EXPECT_EQ(settings_.camera.width_px, 635);
@@ -65,6 +68,12 @@ TEST_F(SessionSettings, ReadsEveryTable) {
   EXPECT_EQ(settings_.start.optimum_px[1], 190.5);
   EXPECT_EQ(settings_.motion.max_speed_mm_s, 250.0);
   EXPECT_EQ(settings_.motion.max_acceleration_mm_s2, 2000.5);
+  EXPECT_EQ(settings_.motion.max_height_speed_mm_s, 150.0);
+  EXPECT_EQ(settings_.motion.max_height_acceleration_mm_s2, 1000.0);
+  EXPECT_EQ(settings_.motion.max_turn_speed_deg_s, 600.0);
+  EXPECT_EQ(settings_.motion.max_turn_acceleration_deg_s2, 2000.0);
+  EXPECT_EQ(settings_.motion.max_lean_speed_deg_s, 25.0);
+  EXPECT_EQ(settings_.motion.max_lean_acceleration_deg_s2, 500.0);
   EXPECT_EQ(settings_.edges.initial_threshold, 150);
   EXPECT_EQ(settings_.edges.region_threshold, 50);
   EXPECT_EQ(settings_.verification.aligned_within_mm, 2.0);
@@ -100,6 +109,9 @@ TEST_F(SessionSettings, HasTheDefaultsOfTheConventions) {
   EXPECT_EQ(settings_.start.optimum_px[1], 185.0);  // of 40..330
   EXPECT_EQ(settings_.motion.max_speed_mm_s, 300.0);
   EXPECT_EQ(settings_.motion.max_acceleration_mm_s2, 3000.0);
+  EXPECT_EQ(settings_.motion.max_height_speed_mm_s, 0.0);
+  EXPECT_EQ(settings_.motion.max_turn_speed_deg_s, 360.0);
+  EXPECT_EQ(settings_.motion.max_lean_speed_deg_s, 30.0);
   EXPECT_EQ(settings_.verification.aligned_within_mm, 2.5);
   EXPECT_EQ(settings_.verification.claim_within_s, 0.05);
   EXPECT_EQ(settings_.verification.claim_oldest_s, 0.25);
@@ -229,6 +241,29 @@ TEST_F(SessionSettings, ChecksTheOptionalTables) {
                       "s.toml:35: verification.within: unknown key, expected one of "
                       "aligned_within_mm, claim_within_s, claim_oldest_s",
                       "s.toml:36: tool_quality: a list of tables, expected [tool_quality] once"}));
+}
+
+TEST_F(SessionSettings, ChecksTheLimitsOfHeightHeadingAndLean) {
+  EXPECT_EQ(
+      load(kWhole + "[motion]\nmax_height_speed_mm_s = -1\n"
+                    "max_height_acceleration_mm_s2 = 1000001\nmax_turn_speed_deg_s = 0\n"
+                    "max_turn_acceleration_deg_s2 = 0.5\nmax_lean_speed_deg_s = 3601\n"
+                    "max_lean_acceleration_deg_s2 = 100001\n"),
+      (Messages{
+          "s.toml:31: motion.max_height_speed_mm_s: -1, expected a number from 0 to 1600 mm/s",
+          "s.toml:32: motion.max_height_acceleration_mm_s2: 1000001, expected a number from 0 "
+          "to 1000000 mm/s2",
+          "s.toml:33: motion.max_turn_speed_deg_s: 0, expected a number from 1 to 3600 "
+          "degrees/s",
+          "s.toml:34: motion.max_turn_acceleration_deg_s2: 0.5, expected a number from 1 to "
+          "100000 degrees/s2",
+          "s.toml:35: motion.max_lean_speed_deg_s: 3601, expected a number from 1 to 3600 "
+          "degrees/s",
+          "s.toml:36: motion.max_lean_acceleration_deg_s2: 100001, expected a number from 1 to "
+          "100000 degrees/s2"}));
+  EXPECT_EQ(load(kWhole + "[motion]\nmax_height_speed_mm_s = 0\nmax_turn_speed_deg_s = 3600\n"
+                          "max_lean_speed_deg_s = 1\nmax_turn_acceleration_deg_s2 = 100000\n"),
+            Messages{});
 }
 
 TEST_F(SessionSettings, NamesTheIncludedFile) {

@@ -35,6 +35,9 @@ std::unique_ptr<SessionFile> odd_session() {
       "} ]\n"
       "window_px = [41, 37, 594, 329]\noptimum_px = [300.5, 170]\n"
       "[motion]\nmax_speed_mm_s = 251.5\nmax_acceleration_mm_s2 = 2001\n"
+      "max_height_speed_mm_s = 201.5\nmax_height_acceleration_mm_s2 = 1501\n"
+      "max_turn_speed_deg_s = 301.5\nmax_turn_acceleration_deg_s2 = 1201\n"
+      "max_lean_speed_deg_s = 21.5\nmax_lean_acceleration_deg_s2 = 501\n"
       "[edges]\ninitial_threshold = 210\nregion_threshold = 61\n"
       "[verification]\naligned_within_mm = 2.25\n"
       "claim_within_s = 0.031\nclaim_oldest_s = 0.35\n";
@@ -81,6 +84,7 @@ TEST(SessionText, ReadsBackAsItWasToTheLastBit) {
   EXPECT_EQ(a.start.window_px, b.start.window_px);
   EXPECT_EQ(a.start.optimum_px, b.start.optimum_px);
   EXPECT_EQ(b.motion.max_speed_mm_s, 251.5);
+  EXPECT_EQ(b.motion.max_turn_acceleration_deg_s2, 1201.0);
   EXPECT_EQ(b.edges.initial_threshold, 210);
   EXPECT_EQ(b.verification.aligned_within_mm, 2.25);
   EXPECT_EQ(b.verification.claim_within_s, 0.031);
@@ -100,6 +104,9 @@ const std::string kEveryKey =
     "columns = [-4, 121]\naddresses = \"odd-sum\"\nodd_row_shift = -0.375\n"
     "missing = [[1, 2], [3, 4]]\nplugged = [[5, 6]]\n"
     "\n[motion]\nmax_speed_mm_s = 251.5\nmax_acceleration_mm_s2 = 2001.0\n"
+    "max_height_speed_mm_s = 201.5\nmax_height_acceleration_mm_s2 = 1501.0\n"
+    "max_turn_speed_deg_s = 301.5\nmax_turn_acceleration_deg_s2 = 1201.0\n"
+    "max_lean_speed_deg_s = 21.5\nmax_lean_acceleration_deg_s2 = 501.0\n"
     "\n[edges]\ninitial_threshold = 210\nregion_threshold = 61\n"
     "\n[verification]\naligned_within_mm = 2.25\nclaim_within_s = 0.031\n"
     "claim_oldest_s = 0.35\n"

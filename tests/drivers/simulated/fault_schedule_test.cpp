@@ -45,6 +45,27 @@ TEST(FaultsOf, WithoutALengthHitOneField) {
   EXPECT_EQ(hit(fault(FaultKind::kTorn, 0.101, 0.0)), (std::vector<int>{7}));
 }
 
+TEST(FaultsOf, LeaveOutAPartOfThePathFromThenOn) {
+  const std::vector<Fault> skips{fault(FaultKind::kSkip, 0.1, 0.25),
+                                 fault(FaultKind::kSkip, 0.2, 0.5)};
+  EXPECT_EQ(faults_of(skips, slot(5)).skipped_s, 0.0);
+  EXPECT_EQ(faults_of(skips, slot(6)).skipped_s, 0.25);
+  EXPECT_EQ(faults_of(skips, slot(100)).skipped_s, 0.75);
+  EXPECT_FALSE(faults_of(skips, slot(6)).lost) << "the camera delivers";
+}
+
+TEST(FaultsOf, PutTheToolOff) {
+  Fault step = fault(FaultKind::kPoseStep, 0.1, 0.0);
+  step.shake_mm = {0.0, 0.0, 3.5};
+  step.shake_deg = {0.0, 0.0, 90.0};
+  EXPECT_EQ(faults_of({&step, 1}, slot(5)).off.translation_mm(), Eigen::Vector3d::Zero());
+  const auto off = faults_of({&step, 1}, slot(100)).off;
+  EXPECT_EQ(off.translation_mm(), Eigen::Vector3d(0.0, 0.0, 3.5));
+  EXPECT_NEAR((off.rotation() * Eigen::Vector3d::UnitX()).y(), 1.0, 1e-12) << "about z";
+  step.for_s = 0.05;
+  EXPECT_EQ(hit(step), (std::vector<int>{6, 7, 8}));
+}
+
 TEST(FaultsOf, SwapAndCutWholeFrames) {
   EXPECT_EQ(hit(fault(FaultKind::kSwapped, 0.1, 0.0)), (std::vector<int>{6, 7}));
   EXPECT_EQ(hit(fault(FaultKind::kCut, 0.09, 0.05)), (std::vector<int>{6, 7, 8, 9}));
@@ -159,6 +180,8 @@ TEST(FaultWords, AreOneForEachKind) {
   EXPECT_EQ(name_of(FaultKind::kSaltPepper), "salt-pepper");
   EXPECT_EQ(name_of(FaultKind::kFrozen), "frozen");
   EXPECT_EQ(name_of(FaultKind::kOtherCamera), "other-camera");
+  EXPECT_EQ(name_of(FaultKind::kSkip), "skip");
+  EXPECT_EQ(name_of(FaultKind::kPoseStep), "pose-step");
 }
 
 }  // namespace
