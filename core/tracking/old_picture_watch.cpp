@@ -64,15 +64,14 @@ void OldPictureWatch::believe(bool at_rest) {
   if (rested_ < kRested || likeness_.compared < kEnough || quiet_ > 0) {
     return;
   }
-  const bool fresh = 16 * likeness_.equal <= likeness_.compared;
   if (source_ == Source::kUnknown) {
     if (4 * likeness_.equal >= likeness_.compared) {
       source_ = Source::kRepeating;
-    } else if (fresh && likeness_.middle_noise >= kLeastNoise) {
+    } else if (likeness_.equal == 0 && likeness_.middle_noise >= kLeastNoise) {
       source_ = Source::kNoisy;
     }
   }
-  if (source_ == Source::kNoisy && fresh) {
+  if (source_ == Source::kNoisy && 16 * likeness_.equal <= likeness_.compared) {
     most_equal_ = std::max(most_equal_, likeness_.equal);
     learn_noise();
   }
