@@ -292,6 +292,25 @@ at_s = 0.125
 for_s = 0.125
 steps = [2, -4]
 
+[[fault]]
+kind = "held"
+at_s = 0.125
+for_s = 0.125
+share = 0.75
+noise = 0.25
+
+[[fault]]
+kind = "compressed"
+at_s = 0.125
+for_s = 0.125
+step = 6.0
+
+[[fault]]
+kind = "jitter"
+at_s = 0.125
+for_s = 0.125
+waver_ms = 2.5
+
 [[event]]
 at_s = 0.5
 kind = "claim"

@@ -159,6 +159,9 @@ TEST(FaultWords, AreOneForEachKind) {
   EXPECT_EQ(name_of(FaultKind::kSaltPepper), "salt-pepper");
   EXPECT_EQ(name_of(FaultKind::kFrozen), "frozen");
   EXPECT_EQ(name_of(FaultKind::kOtherCamera), "other-camera");
+  EXPECT_EQ(name_of(FaultKind::kHeld), "held");
+  EXPECT_EQ(name_of(FaultKind::kCompressed), "compressed");
+  EXPECT_EQ(name_of(FaultKind::kJitter), "jitter");
 }
 
 }  // namespace
