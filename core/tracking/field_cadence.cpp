@@ -25,9 +25,9 @@ FieldCadence::Stamp FieldCadence::judge(FieldTime stamp, std::int64_t numbers) c
   if (count_ < kKnown || numbers < 1 || numbers > kMostNumbers) {
     return Stamp::kAlone;
   }
-  const std::int64_t off_ns = std::abs((stamp - beat_).count() - numbers * period_ns_);
-  const std::int64_t step_ns = step_ * period_ns_;
-  if (off_ns > std::clamp(4 * waver_ns_, step_ns / 4, 3 * step_ns / 4)) {
+  const std::int64_t off_ns = std::abs((stamp - beat_ - time_of(numbers)).count());
+  const std::int64_t step_ns = time_of(step_).count();
+  if (off_ns > std::clamp(std::int64_t{4} * waver_ns_, step_ns / 4, 3 * step_ns / 4)) {
     return Stamp::kAlone;
   }
   return off_ns <= kExact_ns ? Stamp::kExact : Stamp::kWavers;
@@ -42,17 +42,19 @@ void FieldCadence::follow(FieldTime stamp, std::int64_t numbers) {
   }
   if (count_ == 1 || numbers < step_) {
     begin_at(stamp);
-    step_ = numbers;
-    period_ns_ = passed_ns / numbers;
+    step_ = static_cast<std::int32_t>(numbers);
+    period_ns_ = static_cast<std::int32_t>(passed_ns / numbers);
     waver_ns_ = 0;
     count_ = 2;
     return;
   }
-  const std::int64_t off_ns = passed_ns - numbers * period_ns_;
-  const std::int64_t waver_ns = std::min(std::abs(off_ns), step_ * period_ns_);
+  const std::int64_t off_ns = passed_ns - time_of(numbers).count();
   const bool lost = count_ >= kKnown && judge(stamp, numbers) == Stamp::kAlone;
-  const std::int64_t n = std::min(count_ + 1, kMemory);
-  waver_ns_ += (waver_ns - waver_ns_) / std::min<std::int64_t>(n, 8);
+  const std::int32_t n = std::min(count_ + 1, kMemory);
+  const std::int64_t waver_ns = std::min(std::abs(off_ns), time_of(step_).count());
+  const std::int64_t most_ns = kSecond_ns;
+  waver_ns_ = static_cast<std::int32_t>(
+      std::min(waver_ns_ + (waver_ns - waver_ns_) / std::min(n, 8), most_ns));
   if (lost) {
     // One may be a stamp far off. Behind two the beat is elsewhere; after a few nothing is known.
     beat_ = strayed_ ? stamp : beat_ + time_of(numbers);
@@ -62,10 +64,11 @@ void FieldCadence::follow(FieldTime stamp, std::int64_t numbers) {
   }
   strayed_ = false;
   // Of n samples: alpha = 2 (2 n - 1) / (n (n + 1)), beta = 6 / (n (n + 1)).
-  const std::int64_t share = n * (n + 1);
-  beat_ += FieldTime(numbers * period_ns_ + off_ns * 2 * (2 * n - 1) / share);
-  period_ns_ = std::clamp<std::int64_t>(period_ns_ + off_ns * 6 / share / numbers, 0, kSecond_ns);
-  count_ = static_cast<std::int32_t>(n);
+  const std::int64_t share = std::int64_t{n} * (n + 1);
+  beat_ += time_of(numbers) + FieldTime(off_ns * 2 * (2 * n - 1) / share);
+  period_ns_ = static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(period_ns_ + off_ns * 6 / share / numbers, 0, most_ns));
+  count_ = n;
 }
 
 }  // namespace tubesight::core::tracking

@@ -32,7 +32,7 @@ class FieldCadence {
 
   /// Time of so many numbers. Valid where a stamp is not kAlone.
   [[nodiscard]] FieldTime time_of(std::int64_t numbers) const {
-    return FieldTime(numbers * period_ns_);
+    return FieldTime(numbers * std::int64_t{period_ns_});
   }
 
   /// By how much numbers grow from field to field; 1 at least. Valid where a stamp is not kAlone.
@@ -42,7 +42,7 @@ class FieldCadence {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [beat, period, waver, step, count, strayed] = self;
-    constexpr std::int64_t kSecond_ns = 1'000'000'000;
+    constexpr std::int32_t kSecond_ns = 1'000'000'000;
     stream(beat);
     stream.number(period, 0, kSecond_ns);
     stream.number(waver, 0, kSecond_ns);
@@ -52,15 +52,15 @@ class FieldCadence {
   }
 
  private:
-  static constexpr std::int64_t kMostNumbers = 1'000;
+  static constexpr std::int32_t kMostNumbers = 1'000;
   static constexpr std::int32_t kMemory = 32;
 
   void begin_at(FieldTime stamp);
 
   FieldTime beat_{0};           ///< of the last field
-  std::int64_t period_ns_ = 0;  ///< of a number; 0: not known
-  std::int64_t waver_ns_ = 0;   ///< of stamps beside the beat, on average
-  std::int64_t step_ = 0;       ///< by which numbers grow without a gap; 0: not known
+  std::int32_t period_ns_ = 0;  ///< of a number; 0: not known
+  std::int32_t waver_ns_ = 0;   ///< of stamps beside the beat, on average
+  std::int32_t step_ = 0;       ///< by which numbers grow without a gap; 0: not known
   std::int32_t count_ = 0;      ///< fields on this beat
   bool strayed_ = false;        ///< the last stamp was none of it
 };

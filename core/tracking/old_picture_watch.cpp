@@ -26,8 +26,8 @@ bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool
   const bool repeated = noisy && likeness_.equal >= kTorn + 2 * most_equal_;
   const bool stands = moves && likeness_.equal_edges >= kStandingEdges;
   const bool quiet = is_quiet();
-  quiet_ = quiet ? std::min(quiet_ + 1, kQuiet) : 0;
-  const bool old = repeated || stands || quiet_ >= kQuiet;
+  const bool old = repeated || stands || (quiet && quiet_);
+  quiet_ = quiet;
   if (!old && !quiet) {
     memory_.keep(field.pixels, field.parity, window);
   }
@@ -61,7 +61,7 @@ bool OldPictureWatch::is_quiet() const {
 void OldPictureWatch::believe(bool at_rest) {
   constexpr std::int32_t kRested = 3;
   rested_ = at_rest ? rested_ + 1 : 0;
-  if (rested_ < kRested || likeness_.compared < kEnough || quiet_ > 0) {
+  if (rested_ < kRested || likeness_.compared < kEnough || quiet_) {
     return;
   }
   if (source_ == Source::kUnknown) {

@@ -43,34 +43,33 @@ class OldPictureWatch {
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [memory, likeness, rested, source, most_equal, learnt, noise, grey, quiet] = self;
-    stream(memory, likeness);
-    stream.number(rested, 0, 1 << 30);
+    auto& [memory, source, quiet, likeness, rested, most_equal, learnt, noise, grey] = self;
+    stream(memory);
     stream.choice(source, Source::kRepeating);
+    stream(quiet, likeness);
+    stream.number(rested, 0, 1 << 30);
     stream.number(most_equal, 0, 1 << 10);
     stream.number(learnt, 0, kMostLearnt);
     stream.number(noise, 0, 1 << 28);
     stream.number(grey, 0, 1 << 12);
-    stream.number(quiet, 0, kQuiet);
   }
 
  private:
   static constexpr std::int32_t kMostLearnt = 16;  ///< fields that the usual noise is the mean of
-  static constexpr std::int32_t kQuiet = 2;        ///< fields in a row: both parities
 
   [[nodiscard]] std::int32_t expected_noise() const;
   [[nodiscard]] bool is_quiet() const;
   void learn_noise();
 
   PictureMemory memory_{};
-  PictureLikeness likeness_{};  ///< of the last field that was looked at
-  std::int32_t rested_ = 0;     ///< believed fields in a row with the tool at rest
   Source source_ = Source::kUnknown;
+  bool quiet_ = false;           ///< the last field had too little noise
+  PictureLikeness likeness_{};   ///< of the last field that was looked at
+  std::int32_t rested_ = 0;      ///< believed fields in a row with the tool at rest
   std::int32_t most_equal_ = 0;  ///< blocks of a noisy picture that were equal by chance
   std::int32_t learnt_ = 0;      ///< fields that the two below are learnt from
   std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness
   std::int32_t grey_q4_ = 0;     ///< of the blocks that showed it
-  std::int32_t quiet_ = 0;       ///< fields in a row with too little noise
 };
 
 }  // namespace tubesight::core::tracking
