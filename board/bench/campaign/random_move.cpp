@@ -36,6 +36,7 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
     }
     draw_path(stratum, path, truth_->tube_ends(), scenario);
     draw_faults(stratum, faults, scenario);
+    draw_source_faults(seed, move, stratum, scenario);
     if (draw_clicks(clicks, *truth_, scenario)) {
       return;
     }
