@@ -16,6 +16,7 @@
 #include "core/session/session.h"
 #include "drivers/scenario/scenario_file.h"
 #include "drivers/settings/read_table.h"
+#include "drivers/settings/session_checks.h"
 #include "drivers/settings/settings_document.h"
 #include "drivers/settings/table_reader.h"
 
@@ -197,6 +198,42 @@ void check_memory(SettingsDocument& document, const BoxSettings& box) {
   }
 }
 
+/// The shortest time from field to field that a source may have; 0: not known before it runs.
+double least_span_s(const BoxSettings& box) {
+  if (box.source.kind == SourceKind::kSimulated) {
+    const auto& video = box.scenario.scenario.video;
+    const bool interlaced = box.told().camera.scan != core::Scan::kProgressive;
+    return static_cast<double>(video.rate_denominator) /
+           static_cast<double>(video.rate_numerator * (interlaced ? 2 : 1));
+  }
+  if (!is_camera(box.source.kind)) {
+    return 0.0;  // a recording is asked when it is opened
+  }
+  const bool v4l2 = box.source.kind == SourceKind::kV4l2;
+  const double told = v4l2 ? box.source.v4l2.fields_per_s : box.source.aravis.fields_per_s;
+  if (told > 0.0) {
+    return 1.0 / told;
+  }
+  constexpr double kFastestStandard = 60.0;
+  return box.told().camera.scan != core::Scan::kProgressive ? 1.0 / kFastestStandard : 0.0;
+}
+
+/// Limits of motion with which the box would lose its track at once are no settings.
+void check_motion(SettingsDocument& document, const BoxSettings& box) {
+  const double span_s = least_span_s(box);
+  if (span_s <= 0.0) {
+    return;
+  }
+  const std::string why =
+      drivers::why_fields_too_seldom(box.told().motion, box.told().tubesheet, span_s);
+  if (why.empty()) {
+    return;
+  }
+  const drivers::SettingsTable* const table = document.find("motion");
+  document.problems().push_back(
+      {table != nullptr ? table->place : drivers::SettingsPlace{0, 0}, "motion: " + why});
+}
+
 }  // namespace
 
 std::string_view name_of(SourceKind kind) { return kSourceKinds[static_cast<std::size_t>(kind)]; }
@@ -216,6 +253,7 @@ core::Result<void> load_box_settings(drivers::TextFiles& files, const std::strin
   }
   if (document.problems().empty() && scenario) {
     check_memory(document, box);
+    check_motion(document, box);
   }
   const auto read = document.report(messages);
   std::ranges::move(of_scenario, std::back_inserter(messages));

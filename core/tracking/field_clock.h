@@ -4,6 +4,7 @@
 
 #include "core/base/field.h"
 #include "core/base/sighting.h"
+#include "core/tracking/field_cadence.h"
 
 namespace tubesight::core::tracking {
 
@@ -13,7 +14,8 @@ namespace tubesight::core::tracking {
 ///
 /// What is usual is learnt from the fields themselves, as neither the camera's rate nor by what its
 /// counter grows is set: the shortest time from field to field, and what a sequence number lasts.
-/// Integers alone.
+/// Where stamps waver and numbers do not (a host that stamps what it gets when it gets to it), the
+/// numbers tell the time, by a cadence that is fitted to both. Integers alone.
 class FieldClock {
  public:
   /// What has passed before a field.
@@ -51,7 +53,7 @@ class FieldClock {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [good_time, good_sequence, seen_time, seen_sequence, usual_numbers, per_sequence,
-           usual_span] = self;
+           usual_span, cadence, stamp, good_wavers, even] = self;
     constexpr std::int64_t kMostCounted = (std::int64_t{1} << 62) - 1;  // differences fit
     stream(good_time);
     stream.number(good_sequence, -kMostCounted, kMostCounted);
@@ -60,9 +62,16 @@ class FieldClock {
     stream.number(usual_numbers, 0, kMostCounted);
     stream.number(per_sequence, -kMostCounted, kMostCounted);
     stream.number(usual_span, -kMostCounted, kMostCounted);
+    stream(cadence);
+    stream.choice(stamp, FieldCadence::Stamp::kWavers);
+    stream(good_wavers, even);
   }
 
  private:
+  [[nodiscard]] std::int64_t numbers_since_seen(const Field& field) const {
+    return field.sequence - seen_sequence_;
+  }
+  [[nodiscard]] std::int64_t passed_ns(const Field& field) const;
   [[nodiscard]] bool misses_fields(const Field& field);
   [[nodiscard]] FieldTime since_good(const Field& field);
 
@@ -73,6 +82,10 @@ class FieldClock {
   std::int64_t usual_numbers_ = 0;  ///< by which sequence numbers grow without a gap; 0: not known
   std::int64_t per_sequence_ns_ = 0;  ///< shortest time that a sequence number took; 0: not known
   std::int64_t usual_span_ns_ = 0;    ///< shortest time from field to field; 0: not known
+  FieldCadence cadence_{};
+  FieldCadence::Stamp stamp_{};  ///< of the field looked at last
+  bool good_wavers_ = false;     ///< that of the last good field does
+  bool even_ = false;            ///< all fields since the last good one keep the cadence
 };
 
 }  // namespace tubesight::core::tracking

@@ -17,7 +17,18 @@ Unit<S> seconds(FieldTime span) {
 
 template <Scalar S>
 bool rests(const Motion<S>& motion) {
-  return motion.known && plane_length(motion.velocity_mm_s) < constant<Mm<S>>(3.0);
+  using M = Mm<S>;
+  const M fastest = constant<M>(3.0);
+  const M fastest_turn = constant<M>(0.035);
+  const auto& turn = motion.turn_rad_s;
+  return motion.known && plane_length(motion.velocity_mm_s) < fastest &&
+         absolute(motion.approach_mm_s) < fastest && absolute(turn.x) < fastest_turn &&
+         absolute(turn.y) < fastest_turn && absolute(turn.z) < fastest_turn;
+}
+
+template <Scalar S>
+bool travels(const Motion<S>& motion) {
+  return motion.known && plane_length(motion.velocity_mm_s) > constant<Mm<S>>(30.0);
 }
 
 // Each rate times the span: axes turned by w dt, the tool point moved by v dt over the sheet and
@@ -137,6 +148,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
   template Unit<S> seconds<S>(FieldTime);                                                          \
   template bool rests<S>(const Motion<S>&);                                                        \
+  template bool travels<S>(const Motion<S>&);                                                      \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \
   template Mm<S> reachable_mm<S>(const TrackingModel<S>&, const Motion<S>&, Unit<S>, Mm<S>);       \

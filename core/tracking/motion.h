@@ -32,10 +32,15 @@ struct Motion {
   }
 };
 
-/// Whether the tool stands still as far as a picture tells: under 3 mm/s, a twentieth of a
-/// millimetre from field to field.
+/// Whether tool and picture stand still as far as a picture tells: under 3 mm/s over the sheet and
+/// in height, a twentieth of a millimetre from field to field, and 2 degrees a second in any turn.
 template <Scalar S>
 [[nodiscard]] bool rests(const Motion<S>& motion);
+
+/// Whether the tool moves so fast, over 30 mm/s, that between two fields of one parity every edge
+/// of the picture does by pixels.
+template <Scalar S>
+[[nodiscard]] bool travels(const Motion<S>& motion);
 
 /// The pose after `span_s` at constant motion.
 template <Scalar S>

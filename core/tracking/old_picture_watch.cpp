@@ -1,23 +1,94 @@
 #include "core/tracking/old_picture_watch.h"
 
-namespace tubesight::core::tracking {
+#include <algorithm>
 
-bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window) {
-  // One line alone may be equal by chance; a torn field has more.
-  constexpr std::int32_t kTorn = 2;
-  likeness_ = memory_.look(field.pixels, field.parity, window);
-  return noisy_ && likeness_.equal >= kTorn;
+namespace tubesight::core::tracking {
+namespace {
+
+// With fewer blocks of grey the picture tells nothing of its noise.
+constexpr std::int32_t kEnough = 16;
+// A variance of the difference of 0.36: noise of 0.3 grey levels, rounded. Below, rounding hides
+// how much it is.
+constexpr std::int32_t kLeastNoise = 20;
+// Fields until the usual noise is known.
+constexpr std::int32_t kKnown = 3;
+
+}  // namespace
+
+// A quiet picture is not kept: the next one is compared with that before it, too, so that a store
+// under noise of its own stays at half of the variance of two live pictures, or below.
+bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool moves) {
+  // One or two blocks may be equal by chance; a torn field has more.
+  constexpr std::int32_t kTorn = 4;
+  constexpr std::int32_t kStandingEdges = 3;
+  likeness_ = memory_.look(field.pixels, field.parity, window, expected_noise());
+  const bool noisy = source_ == Source::kNoisy;
+  const bool repeated = noisy && likeness_.equal >= kTorn + 2 * most_equal_;
+  const bool stands = moves && likeness_.equal_edges >= kStandingEdges;
+  const bool quiet = is_quiet();
+  const bool old = repeated || stands || (quiet && quiet_);
+  quiet_ = quiet;
+  if (!old && !quiet) {
+    memory_.keep(field.pixels, field.parity, window);
+  }
+  return old;
+}
+
+// Where the picture got darker the photons' share of the noise went with it: its variance is as the
+// grey level. Where it got brighter there is as much as before, at least.
+std::int32_t OldPictureWatch::expected_noise() const {
+  const std::int32_t level = std::min(16 * likeness_.grey, grey_q4_);
+  return grey_q4_ > 0 ? static_cast<std::int32_t>(std::int64_t{noise_q4_} * level / grey_q4_ / 16)
+                      : 0;
+}
+
+// A store's own noise is half of what two live pictures differ by, or less. Forty blocks tell their
+// mean variance to a twelfth: two thirds are four deviations from either. Where a part of the
+// picture is live it outweighs the mean: of live blocks a sixth have less than half of the usual
+// noise, half of all are four deviations more.
+bool OldPictureWatch::is_quiet() const {
+  const std::int32_t usual = expected_noise();
+  if (source_ != Source::kNoisy || learnt_ < kKnown || usual < kLeastNoise ||
+      likeness_.compared < kEnough) {
+    return false;
+  }
+  return 3 * likeness_.noise < 2 * usual || 2 * likeness_.quiet >= likeness_.compared;
 }
 
 // Three fields at rest in a row: the picture of the same lines before was one of the same place,
-// whichever of its parity it was.
+// whichever of its parity it was. What a source is, is settled once; between the two the next field
+// is asked, as a compressor sends a whole picture anew at times.
 void OldPictureWatch::believe(bool at_rest) {
   constexpr std::int32_t kRested = 3;
   rested_ = at_rest ? rested_ + 1 : 0;
-  if (rested_ >= kRested && likeness_.equal == 0 &&
-      2 * likeness_.compared > PictureMemory::kLines) {
-    noisy_ = true;
+  if (rested_ < kRested || likeness_.compared < kEnough || quiet_) {
+    return;
   }
+  if (source_ == Source::kUnknown) {
+    if (4 * likeness_.equal >= likeness_.compared) {
+      source_ = Source::kRepeating;
+    } else if (likeness_.equal == 0 && likeness_.middle_noise >= kLeastNoise) {
+      source_ = Source::kNoisy;
+    }
+  }
+  if (source_ == Source::kNoisy && 16 * likeness_.equal <= likeness_.compared) {
+    most_equal_ = std::max(most_equal_, likeness_.equal);
+    learn_noise();
+  }
+}
+
+// The mean of the first fields, then one that follows slowly, downwards sooner: what moves a little
+// shows more. Of the middle block, which specks, interference and shaking edges do not reach: a chi
+// square of seven is 0.907 of its mean there.
+// What is far more than usual is no noise: the picture moved, by a whole step or very slowly.
+void OldPictureWatch::learn_noise() {
+  const std::int32_t noise_q4 = likeness_.middle_noise * 16 * 11 / 10;
+  if (learnt_ >= kKnown && 2 * noise_q4 > 3 * noise_q4_) {
+    return;
+  }
+  learnt_ = std::min(learnt_ + 1, kMostLearnt);
+  noise_q4_ += (noise_q4 - noise_q4_) / std::min(learnt_, noise_q4 < noise_q4_ ? 8 : kMostLearnt);
+  grey_q4_ += (16 * likeness_.grey - grey_q4_) / learnt_;
 }
 
 }  // namespace tubesight::core::tracking

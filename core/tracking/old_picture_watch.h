@@ -8,37 +8,68 @@
 
 namespace tubesight::core::tracking {
 
-/// Finds pictures that were seen before: the frame store stopped, or the field is torn.
+/// Finds pictures that were seen before: the frame store stopped, as a whole or in parts, or the
+/// field is torn.
 ///
-/// Equal lines are an old picture only where the camera has noise; drawn and averaged pictures have
-/// none. That is learnt from the tool's own rests: pictures of the same place that differ show
-/// that equal ones do not happen. Until then no picture is called old. Integers alone.
+/// What a source does is learnt from the tool's own rests. Where each picture has noise of its own,
+/// four blocks that are equal to the last bit are old ones, whatever the rest of the picture shows;
+/// and a picture that comes again under noise that was added behind the store lacks what the sensor
+/// adds, so its differences are quieter. Where blocks come again at rest (compressed, drawn or
+/// averaged pictures) neither tells anything, and a store that stops at rest is not found. In
+/// motion no edge of any source stands still. Until something is learnt no picture is called old
+/// for its noise. Integers alone.
 class OldPictureWatch {
  public:
+  /// What a tool's rest shows of the source.
+  enum class Source : std::uint8_t {
+    kUnknown,    ///< there was no rest yet
+    kNoisy,      ///< each picture has noise of its own
+    kRepeating,  ///< a quarter of the blocks or more come again
+  };
+
   /// A new start: nothing is remembered or learnt.
   void begin() { *this = {}; }
 
-  /// Whether two or more of the lines looked at are a picture seen before. Call once for each field
-  /// with pixels. The window lies in the picture.
-  [[nodiscard]] bool shows_old(const Field& field, const PixelBox& window);
+  /// Whether the picture, or a part of it, was seen before. Call once for each field with pixels;
+  /// `moves`: the fields before show a motion of some pixels a field. The window lies in the
+  /// picture.
+  [[nodiscard]] bool shows_old(const Field& field, const PixelBox& window, bool moves);
 
   /// The field looked at last was believed; `at_rest`: it shows the tool standing still.
   void believe(bool at_rest);
 
+  [[nodiscard]] Source source() const { return source_; }
+
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [memory, likeness, rested, noisy] = self;
-    stream(memory, likeness);
+    auto& [memory, source, quiet, likeness, rested, most_equal, learnt, noise, grey] = self;
+    stream(memory);
+    stream.choice(source, Source::kRepeating);
+    stream(quiet, likeness);
     stream.number(rested, 0, 1 << 30);
-    stream(noisy);
+    stream.number(most_equal, 0, 1 << 10);
+    stream.number(learnt, 0, kMostLearnt);
+    stream.number(noise, 0, 1 << 28);
+    stream.number(grey, 0, 1 << 12);
   }
 
  private:
+  static constexpr std::int32_t kMostLearnt = 16;  ///< fields that the usual noise is the mean of
+
+  [[nodiscard]] std::int32_t expected_noise() const;
+  [[nodiscard]] bool is_quiet() const;
+  void learn_noise();
+
   PictureMemory memory_{};
-  PictureLikeness likeness_{};  ///< of the last field that was looked at
-  std::int32_t rested_ = 0;     ///< believed fields in a row with the tool at rest
-  bool noisy_ = false;          ///< pictures of a tool at rest differ
+  Source source_ = Source::kUnknown;
+  bool quiet_ = false;           ///< the last field had too little noise
+  PictureLikeness likeness_{};   ///< of the last field that was looked at
+  std::int32_t rested_ = 0;      ///< believed fields in a row with the tool at rest
+  std::int32_t most_equal_ = 0;  ///< blocks of a noisy picture that were equal by chance
+  std::int32_t learnt_ = 0;      ///< fields that the two below are learnt from
+  std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness
+  std::int32_t grey_q4_ = 0;     ///< of the blocks that showed it
 };
 
 }  // namespace tubesight::core::tracking

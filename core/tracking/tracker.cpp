@@ -127,7 +127,8 @@ bool Tracker<S, Margin>::coasts() const {
 
 template <Scalar S, typename Margin>
 bool Tracker<S, Margin>::shows_old_picture(const Field& field) {
-  return old_pictures_.shows_old(field, model_->window);
+  // What was passed over may have been the end of the motion.
+  return old_pictures_.shows_old(field, model_->window, !coasts() && travels<S>(motion_));
 }
 
 template <Scalar S, typename Margin>

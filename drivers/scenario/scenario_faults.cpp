@@ -70,6 +70,14 @@ void for_each_parameter(FaultKind kind, Visit visit) {
       visit(Number{"share", kShare, &Fault::share});
       visit(Number{"amplitude", kGrey, &Fault::amplitude});
       break;
+    case FaultKind::kHeld:
+      visit(Number{"share", kShare, &Fault::share});
+      visit(Number{"noise", {0.0, 20.0, ""}, &Fault::amplitude});
+      break;
+    case FaultKind::kCompressed: visit(Number{"step", {1.0, 32.0, ""}, &Fault::amplitude}); break;
+    case FaultKind::kJitter:
+      visit(Number{"waver_ms", {0.0, 100.0, " ms"}, &Fault::waver_ms});
+      break;
     case FaultKind::kSwapped:
     case FaultKind::kDropped:
     case FaultKind::kRepeated:
@@ -140,6 +148,9 @@ Fault usual(FaultKind kind) {
       fault.amplitude = 60.0;
       break;
     case FaultKind::kSaltPepper: fault.share = 0.01; break;
+    case FaultKind::kHeld: fault.share = 1.0; break;
+    case FaultKind::kCompressed: fault.amplitude = 4.0; break;
+    case FaultKind::kJitter: fault.waver_ms = 5.0; break;
     default: break;
   }
   return fault;

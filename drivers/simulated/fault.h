@@ -29,14 +29,18 @@ enum class FaultKind : std::uint8_t {
   kOtherCamera,  ///< the picture of another toolhead, under another lamp with a pattern of its own
   kSkip,         ///< a length of the path is left out, and nothing shows it
   kPoseStep,     ///< the tool stands off at once, by height, heading or lean
+  kHeld,         ///< a frame store hangs, bit for bit: a share of the columns, under line noise
+  kCompressed,   ///< squares that hardly change come again, the others are coarse
+  kJitter,       ///< the fields' stamps waver, their numbers do not
 };
-inline constexpr std::int32_t kFaultKinds = 20;
+inline constexpr std::int32_t kFaultKinds = 23;
 
 /// The word of a kind in files: `dropped`, `signal-loss` ...; the order is that of the kinds.
 inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
-    "dropped", "repeated",    "torn",       "swapped",      "black",     "saturated", "signal-loss",
-    "knock",   "lamp-out",    "lamps-dead", "lamp-drift",   "vibration", "cut",       "jump",
-    "emi",     "salt-pepper", "frozen",     "other-camera", "skip",      "pose-step"};
+    "dropped",     "repeated",  "torn",     "swapped",     "black",      "saturated",
+    "signal-loss", "knock",     "lamp-out", "lamps-dead",  "lamp-drift", "vibration",
+    "cut",         "jump",      "emi",      "salt-pepper", "frozen",     "other-camera",
+    "skip",        "pose-step", "held",     "compressed",  "jitter"};
 
 [[nodiscard]] constexpr std::string_view name_of(FaultKind kind) {
   return kFaultWords[static_cast<std::size_t>(kind)];
@@ -44,7 +48,7 @@ inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
 
 /// One fault of a scenario. A field has it when its nominal mid-exposure is in [at_s, at_s +
 /// for_s); for_s = 0 is the first field at or after at_s, but for knock, lamp-out, lamps-dead,
-/// jump, frozen, other-camera and pose-step, which then last to the end. Of a skip for_s is what is
+/// jump and from frozen on, but for skip, which then last to the end. Of a skip for_s is what is
 /// left out. Swapped and cut go by whole frames,
 /// whose instant is that of their first field. Vibration, lamp-drift and skip need a length.
 struct Fault {
@@ -52,10 +56,12 @@ struct Fault {
   double at_s = 0.0;                  ///< when it begins, from the recording's start
   double for_s = 0.0;                 ///< how long it lasts, 0 or more
   double share = 0.5;                 ///< torn: of the lines that are new, 0..1; emi: of lines hit;
-                                      ///< salt-pepper: of pixels
+                                      ///< salt-pepper: of pixels; held: of columns, from the left
   double level = 0.0;                 ///< lamp-out, lamp-drift: share of full light, 0..1;
                                       ///< black: grey value
-  double amplitude = 0.0;             ///< emi: grey levels
+  double amplitude = 0.0;             ///< emi: grey levels; held: sigma of the line's noise;
+                                      ///< compressed: grey levels of a step
+  double waver_ms = 0.0;              ///< jitter: by how much at most, to either side
   double angle_deg = 0.0;             ///< knock: by how much, right-handed
   std::array<double, 3> axis{};       ///< knock: about which axis of the camera frame, any length
   std::uint16_t lamps = 0;            ///< lamps-dead: bit n is lamp n
@@ -72,8 +78,8 @@ struct Fault {
 /// Whether a fault without a length lasts to the end of the recording.
 [[nodiscard]] constexpr bool lasts_to_the_end(FaultKind kind) {
   return kind == FaultKind::kKnock || kind == FaultKind::kLampOut ||
-         kind == FaultKind::kLampsDead || kind == FaultKind::kJump || kind == FaultKind::kFrozen ||
-         kind == FaultKind::kOtherCamera || kind == FaultKind::kPoseStep;
+         kind == FaultKind::kLampsDead || kind == FaultKind::kJump ||
+         (kind >= FaultKind::kFrozen && kind != FaultKind::kSkip);
 }
 
 /// Whether a fault takes whole frames, by the instant of their first field.

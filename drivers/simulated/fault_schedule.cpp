@@ -76,6 +76,11 @@ void apply_to_picture(const Fault& fault, FieldFaults& to) {
     case FaultKind::kSaltPepper:
       to.salt_pepper_share = std::max(to.salt_pepper_share, fault.share);
       break;
+    case FaultKind::kHeld:
+      to.held_share = fault.share;
+      to.held_noise = fault.amplitude;
+      break;
+    case FaultKind::kCompressed: to.coarseness = fault.amplitude; break;
     default: break;
   }
 }
@@ -107,6 +112,7 @@ void apply(const Fault& fault, const FieldSlot& slot, FieldFaults& to) {
                            {fault.shake_deg[2], fault.shake_deg[1], fault.shake_deg[0]}),
                        Eigen::Vector3d(fault.shake_mm[0], fault.shake_mm[1], fault.shake_mm[2]));
       break;
+    case FaultKind::kJitter: to.waver_s = std::max(to.waver_s, fault.waver_ms / 1000.0); break;
     default:
       apply_to_light(fault, slot.time_s, to);
       apply_to_picture(fault, to);

@@ -45,6 +45,10 @@ struct FieldFaults {
   double emi_share = 0.0;
   double emi_amplitude = 0.0;
   double salt_pepper_share = 0.0;
+  double held_share = 0.0;  ///< held: of the columns, from the left
+  double held_noise = 0.0;  ///< held: sigma behind the store, grey levels
+  double coarseness = 0.0;  ///< compressed: grey levels of a step
+  double waver_s = 0.0;     ///< jitter: of the stamp, at most
 
   [[nodiscard]] constexpr bool has(FaultKind kind) const {
     return ((kinds >> static_cast<unsigned>(kind)) & 1U) != 0;
@@ -52,8 +56,8 @@ struct FieldFaults {
 };
 
 /// What `faults` do to the field of a slot. Of several of a kind lamps multiply, dead lamps,
-/// knocks, jumps and shakes add up, fills and tears are the last one's, emi and salt-pepper the
-/// largest's.
+/// knocks, jumps and shakes add up, fills and tears are the last one's, emi, salt-pepper and jitter
+/// the largest's, held and compressed the last one's.
 [[nodiscard]] FieldFaults faults_of(std::span<const Fault> faults, const FieldSlot& slot);
 
 /// How the faults shake the tool at an instant: T_tool_shaken, the identity without vibration.

@@ -74,6 +74,7 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
   events_taken_ = 0;
   started_ = false;
   another_picture_.begin();
+  video_source_.begin(pixels);
   lamp_permille_ = scenario.light.lamp_permille;
   shine_ = lamp_permille_ / 1000.0;
   return {};
@@ -206,7 +207,7 @@ bool SimulatedWorld::next_slot(SimulatedField& out) {
   out.field.status =
       out.lost || out.faults.damaged ? core::FieldStatus::kDamaged : core::FieldStatus::kGood;
   out.field.sequence = slot_ - unnumbered_;
-  out.field.mid_exposure = slot_time(slot_);
+  out.field.mid_exposure = stamp(out.faults);
   out.field.number = interlaced_ ? slot_ : 2 * slot_;
   out.field.lamp_permille = lamp_permille_;
   if (!out.lost) {
@@ -298,6 +299,19 @@ std::array<std::int32_t, 2> SimulatedWorld::steps_of_skip(const SimulatedField& 
                     {way.x(), way.y()});
 }
 
+/// When the next slot is said to have been exposed. It wavers by less than half a field: stamps
+/// grow.
+core::FieldTime SimulatedWorld::stamp(const FieldFaults& faults) const {
+  const core::FieldTime time = slot_time(slot_);
+  if (faults.waver_s <= 0.0) {
+    return time;
+  }
+  const double most_ns = std::min(
+      faults.waver_s * 1e9, 0.45 * static_cast<double>((slot_time(1) - slot_time(0)).count()));
+  Dice dice(derived_seed(scenario_->seed ^ 0x517C'C1B7U, static_cast<std::uint64_t>(slot_)));
+  return time + core::FieldTime(std::llround(dice.between(-most_ns, most_ns)));
+}
+
 void SimulatedWorld::follow_slip(SimulatedField& out) {
   if (out.faults.skipped_s > skipped_s_) {
     const auto steps = steps_of_skip(out);
@@ -359,6 +373,7 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
     snow(field, dice);
     return;
   }
+  video_source_.remember(field, exposure.parity, faults);
   const auto width = static_cast<std::size_t>(field.width_px);
   const std::int32_t kept_from =
       faults.torn_after ? static_cast<std::int32_t>(std::lround(*faults.torn_after * field.lines))
@@ -377,6 +392,7 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
   for (std::int32_t line = kept_from; line < field.lines; ++line) {
     std::copy_n(kept_.data() + static_cast<std::size_t>(line) * width, width, field.line(line));
   }
+  video_source_.pass(field, exposure.parity, faults, dice);
 }
 
 /// A lag of the first order over one field.

@@ -20,6 +20,7 @@
 #include "drivers/simulated/scenario.h"
 #include "drivers/simulated/simulated_robot.h"
 #include "drivers/simulated/tool_motion.h"
+#include "drivers/simulated/video_source.h"
 
 namespace tubesight::drivers {
 
@@ -130,6 +131,7 @@ class SimulatedWorld {
   void draw(const core::rendering::Exposure& exposure, const FieldFaults& faults);
   [[nodiscard]] std::array<std::int32_t, 2> steps_of_skip(const SimulatedField& field);
   void follow_slip(SimulatedField& out);
+  [[nodiscard]] core::FieldTime stamp(const FieldFaults& faults) const;
   void warm_lamp();
   [[nodiscard]] double following_share() const;
   void follow_lamp_commands(const core::EventList& events);
@@ -156,6 +158,7 @@ class SimulatedWorld {
   bool started_ = false;  ///< the clicks were handed over
   std::int32_t lamp_permille_ = 1000;
   AnotherPicture another_picture_;
+  VideoSource video_source_;
   double shine_ = 1.0;  ///< the lamp's light, 0..1, which follows the level with its lag
 };
 

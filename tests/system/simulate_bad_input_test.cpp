@@ -74,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(
             "\"torn\" or \"swapped\" or \"black\" or \"saturated\" or \"signal-loss\" or "
             "\"knock\" or \"lamp-out\" or \"lamps-dead\" or \"lamp-drift\" or \"vibration\" or "
             "\"cut\" or \"jump\" or \"emi\" or \"salt-pepper\" or \"frozen\" or "
-            "\"other-camera\" or \"skip\" or \"pose-step\""},
+            "\"other-camera\" or \"skip\" or \"pose-step\" or \"held\" or \"compressed\" or "
+            "\"jitter\""},
         Mistake{"ParameterOfAnotherFault", "for_s = 0.02", "for_s = 0.02\nangle_deg = 0.1",
                 "s.toml:33: fault[0].angle_deg: unknown key, expected one of at_s, for_s, kind, "
                 "level"},

@@ -45,6 +45,7 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
     if (!truth_->configure(scenario.scene)) {
       continue;
     }
+    draw_source_faults(seed, move, stratum, scenario);
     leave_out_faults_of_fields(scenario);
     if (draw_clicks(clicks, *truth_, scenario)) {
       return;

@@ -62,6 +62,12 @@ void draw_faults(const Stratum& stratum, RandomSource& random, drivers::Scenario
 void draw_deceptions(const Stratum& stratum, std::uint64_t seed, std::int64_t move,
                      const core::rendering::TubeEnds& ends, drivers::Scenario& scenario);
 
+/// Draws what goes wrong between camera and box in the place of the faults that are drawn already,
+/// in a part of the moves of its groups: a store that hangs bit for bit or under noise, stamps that
+/// waver, a compressor. Each kind by random numbers of its own. Needs plant, camera and path.
+void draw_source_faults(std::uint64_t seed, std::int64_t move, const Stratum& stratum,
+                        drivers::Scenario& scenario);
+
 /// Draws an operator's three clicks into the first field: open tube-ends wholly in view near the
 /// optimum point, not in one line, each up to 60 % of the tube-end's radius off its middle.
 ///

@@ -25,6 +25,17 @@ TEST_F(CameraSettingsTest, ACameraNeedsItsNameAlone) {
   EXPECT_EQ(camera.calibrated.serial, "") << "the calibration names none";
 }
 
+TEST_F(CameraSettingsTest, MotionThatNoTrackCanFollowIsRefused) {
+  EXPECT_FALSE(load(std::string(kCamera) +
+                    "[motion]\nmax_speed_mm_s = 1600\nmax_acceleration_mm_s2 = 100000\n"));
+  EXPECT_TRUE(told("motion: 60 fields a second are too few"));
+  EXPECT_TRUE(told("or 110 fields a second"));
+  const std::string fast = "[motion]\nmax_speed_mm_s = 1600\nmax_acceleration_mm_s2 = 8000\n";
+  EXPECT_FALSE(load(std::string(kCamera) + "fields_per_s = 25\n" + fast));
+  EXPECT_TRUE(told("motion: 25 fields a second are too few"));
+  EXPECT_TRUE(load(std::string(kCamera) + "fields_per_s = 50\n" + fast)) << messages_.front();
+}
+
 TEST_F(CameraSettingsTest, EveryKeyOfACameraIsRead) {
   ASSERT_TRUE(
       load(std::string(kCamera) +

@@ -43,6 +43,15 @@ TEST_F(OldPicture, IsNotBelievedWhileTheToolSpeedsUp) {
   EXPECT_EQ(run_.sighting().reason, Reason::kCoasted);
 }
 
+TEST_F(OldPicture, IsFoundBesideALiveStrip) {
+  start_at_rest(1.5);
+  for (int field = 1; field <= 8; ++field) {
+    run_.step_on_held_picture(speeding_up(field), 0.85);
+    EXPECT_FALSE(run_.sighting().aligned) << field;
+  }
+  EXPECT_EQ(run_.sighting().state, TrackState::kLost);
+}
+
 TEST_F(OldPicture, OfOneFrameIsPassedOver) {
   start_at_rest(1.5);
   run_.step_on_last_picture(kOverTube);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -110,6 +111,18 @@ class SheetRun {
     ++sequence;
     now += kFieldSpan;
     return output_;
+  }
+  /// The next field, drawn at `place`, but for a share of its columns from the left, which are
+  /// those of the picture before.
+  const Output& step_on_held_picture(const ToolPlace& place, double share) {
+    const Frame before = frame_;
+    draw(place);
+    const std::int32_t width = settings->camera.width_px;
+    const auto held = static_cast<std::int32_t>(share * width);
+    for (std::int32_t line = 0; line < settings->camera.height_px; ++line) {
+      std::copy_n(before.begin() + line * width, held, frame_.begin() + line * width);
+    }
+    return step_on_last_picture(place);
   }
   void draw(const ToolPlace& place) {
     sheet->draw(place, parity(), static_cast<std::uint32_t>(sequence), frame_);

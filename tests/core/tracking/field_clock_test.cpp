@@ -91,6 +91,32 @@ TEST_F(FieldClockOf, TakesAMissingFieldForTimeAloneAndForgetsItsInstant) {
   EXPECT_EQ(late.since_good, milliseconds(20));
 }
 
+TEST_F(FieldClockOf, TakesTheNumbersForTheTimeWhereStampsWaver) {
+  const auto at = [](std::int64_t number, std::int64_t off_ms, FieldStatus status) {
+    return field_at(100 + number, 1000 + 20 * number + off_ms, status);
+  };
+  std::int64_t number = 1;
+  for (const std::int64_t off_ms : {0, 4, -5, 3, -2, 5, -4, 1, 4, -3, 0, -5, 5, 2, -1, -4}) {
+    const FieldClock::Passed passed = pass(at(number, off_ms, FieldStatus::kGood));
+    if (number > 8) {
+      EXPECT_FALSE(passed.missing) << number;
+      EXPECT_NEAR(static_cast<double>(passed.since_good.count()), 20e6, 1.5e6) << number;
+    }
+    ++number;
+  }
+  const FieldClock::Passed damaged = pass(at(number, 5, FieldStatus::kDamaged), false);
+  EXPECT_NEAR(static_cast<double>(damaged.since_good.count()), 20e6, 1.5e6);
+  const FieldClock::Passed second = pass(at(number + 1, -4, FieldStatus::kGood));
+  EXPECT_NEAR(static_cast<double>(second.since_good.count()), 40e6, 3e6);
+  const FieldClock::Passed gap = pass(at(number + 4, 2, FieldStatus::kGood));
+  EXPECT_TRUE(gap.missing);
+  EXPECT_NEAR(static_cast<double>(gap.since_good.count()), 60e6, 4e6);
+  // Two fields left out, and no number tells.
+  const FieldClock::Passed cut = pass(field_at(100 + number + 5, 1000 + 20 * (number + 7)));
+  EXPECT_TRUE(cut.missing);
+  EXPECT_GE(cut.since_good, milliseconds(56));
+}
+
 TEST_F(FieldClockOf, LearnsTheUsualSpanAnewAfterAStart) {
   static_cast<void>(pass(field_at(101, 1020)));
   EXPECT_EQ(clock_.usual_span_ns(), 20'000'000);

@@ -225,6 +225,23 @@ TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
   EXPECT_TRUE(rests<S>(motion));
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
   EXPECT_FALSE(rests<S>(motion));
+  motion.velocity_mm_s = {};
+  motion.approach_mm_s = Mm<S>(-3.1);
+  EXPECT_FALSE(rests<S>(motion)) << "the picture grows";
+  motion.approach_mm_s = {};
+  motion.turn_rad_s.z = Mm<S>(-0.04);
+  EXPECT_FALSE(rests<S>(motion)) << "the picture turns";
+}
+
+TYPED_TEST(MotionOf, TravelsFromThirtyMillimetresASecondOn) {
+  using S = TypeParam;
+  Motion<S> motion;
+  motion.velocity_mm_s = {Mm<S>(300.0), Mm<S>(0.0)};
+  EXPECT_FALSE(travels<S>(motion)) << "an unknown motion is none";
+  motion.known = true;
+  EXPECT_TRUE(travels<S>(motion));
+  motion.velocity_mm_s = {Mm<S>(20.0), Mm<S>(-22.0)};  // 29.7 mm/s
+  EXPECT_FALSE(travels<S>(motion));
 }
 
 }  // namespace

@@ -10,18 +10,20 @@
 namespace tubesight::core::tracking {
 namespace {
 
+using Source = OldPictureWatch::Source;
+
 /// A watch shown grey pictures whose noise is `seed`'s.
 class OldPictureWatchOf : public NoisyPicture {
  protected:
   bool look(std::uint32_t seed) {
     draw(seed);
-    return look();
+    return show();
   }
-  bool look() {
+  bool show(bool moves = false) {
     Field field;
     field.parity = Parity::kProgressive;
     field.pixels = view(field.parity);
-    return watch_.shows_old(field, {20, 20, 300, 200});
+    return watch_.shows_old(field, kWindow, moves);
   }
   /// Shows and believes fields at rest with the noises of these seeds.
   void rest(std::uint32_t first, std::uint32_t fields) {
@@ -29,6 +31,31 @@ class OldPictureWatchOf : public NoisyPicture {
       EXPECT_FALSE(look(seed));
       watch_.believe(true);
     }
+  }
+  /// A rest as a compressor shows it: most of the picture as it was, a part of it anew, coarsely.
+  void rest_compressed(std::uint32_t first, std::uint32_t fields) {
+    draw(first);
+    for (std::uint32_t seed = first; seed < first + fields; ++seed) {
+      const std::vector<std::uint8_t> before = pixels_;
+      draw(seed);
+      for (std::uint8_t& pixel : pixels_) {
+        pixel = static_cast<std::uint8_t>(pixel / 2 * 2);
+      }
+      keep_left(before, 220);
+      EXPECT_FALSE(show());
+      watch_.believe(true);
+    }
+  }
+  /// Whether a store that shows `old` with such noise is found in so many fields.
+  int found_under_noise(double deviation, int fields) {
+    const std::vector<std::uint8_t> old = pixels_;
+    int found = 0;
+    for (int i = 0; i < fields; ++i) {
+      pixels_ = old;
+      add_noise(static_cast<std::uint32_t>(1000 + i), deviation);
+      found += show() ? 1 : 0;
+    }
+    return found;
   }
 
   OldPictureWatch watch_;
@@ -45,7 +72,49 @@ TEST_F(OldPictureWatchOf, FindsATornField) {
   const std::vector<std::uint8_t> old = pixels_;
   draw(4);
   std::copy(old.begin() + 150 * kWidth, old.end(), pixels_.begin() + 150 * kWidth);
-  EXPECT_TRUE(look());
+  EXPECT_TRUE(show());
+}
+
+TEST_F(OldPictureWatchOf, FindsAStoreBesideALiveStrip) {
+  rest(1, 8);
+  const std::vector<std::uint8_t> old = pixels_;
+  for (std::uint32_t seed = 20; seed < 25; ++seed) {
+    draw(seed);
+    keep_left(old, 100);
+    EXPECT_TRUE(show()) << "two blocks of seven are old";
+  }
+}
+
+TEST_F(OldPictureWatchOf, FindsAStoreUnderLittleNoise) {
+  rest(1, 8);
+  EXPECT_EQ(found_under_noise(0.25, 5), 5);
+}
+
+TEST_F(OldPictureWatchOf, FindsAStoreUnderNoiseThatIsTheCamerasLessItsOwn) {
+  rest(1, 8);
+  // 1.25 is the camera's variance: half of it is the line's. The first field may yet be chance.
+  EXPECT_EQ(found_under_noise(0.79, 6), 5);
+}
+
+TEST_F(OldPictureWatchOf, CannotTellAStoreUnderMoreNoiseThanTheCamera) {
+  rest(1, 8);
+  EXPECT_EQ(found_under_noise(2.0, 6), 0);
+}
+
+TEST_F(OldPictureWatchOf, BelievesALongRest) {
+  rest(1, 2000);
+  EXPECT_EQ(watch_.source(), Source::kNoisy);
+}
+
+TEST_F(OldPictureWatchOf, BelievesAPictureThatGetsDarkerWithItsNoise) {
+  rest(1, 8);
+  const std::vector<std::uint8_t> flat(pixels_.size(), 60);
+  for (std::uint32_t seed = 20; seed < 60; ++seed) {
+    pixels_ = flat;
+    add_noise(seed, 0.8);  // half of the light, half of the variance
+    EXPECT_FALSE(show()) << seed;
+    watch_.believe(true);
+  }
 }
 
 TEST_F(OldPictureWatchOf, CallsNoPictureOldThatHasNoNoise) {
@@ -53,6 +122,38 @@ TEST_F(OldPictureWatchOf, CallsNoPictureOldThatHasNoNoise) {
     EXPECT_FALSE(look(1)) << "a drawn picture of a tool at rest is always the same";
     watch_.believe(true);
   }
+  EXPECT_EQ(watch_.source(), Source::kRepeating);
+}
+
+TEST_F(OldPictureWatchOf, RecognisesACompressedSourceAndDoesNotCallItOld) {
+  rest_compressed(1, 8);
+  EXPECT_EQ(watch_.source(), Source::kRepeating);
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(show()) << "all blocks are skipped";
+    watch_.believe(true);
+  }
+  rest_compressed(40, 4);
+}
+
+TEST_F(OldPictureWatchOf, WaitsWhereACompressorMaySendAWholePictureAnew) {
+  rest(1, 2);
+  const std::vector<std::uint8_t> before = pixels_;
+  draw(3);
+  keep_left(before, 30);  // a seventh is as before
+  EXPECT_FALSE(show());
+  watch_.believe(true);
+  EXPECT_EQ(watch_.source(), Source::kUnknown);
+}
+
+TEST_F(OldPictureWatchOf, FindsEdgesThatStandWhileTheToolMovesInAnySource) {
+  draw_stripes(0);
+  EXPECT_FALSE(show());
+  draw_stripes(3);
+  EXPECT_FALSE(show(true));
+  EXPECT_TRUE(show(true)) << "nothing was learnt";
+  EXPECT_FALSE(show(false)) << "a drawn picture at rest";
+  draw_stripes(6);
+  EXPECT_FALSE(show(true));
 }
 
 TEST_F(OldPictureWatchOf, LearnsOnlyFromThreeFieldsAtRestInARow) {

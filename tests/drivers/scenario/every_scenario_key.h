@@ -310,6 +310,25 @@ for_s = 0.125
 by_mm = [0.125, -0.25, 3.5]
 by_deg = [0.5, -0.5, 2.5]
 
+[[fault]]
+kind = "held"
+at_s = 0.125
+for_s = 0.125
+share = 0.75
+noise = 0.25
+
+[[fault]]
+kind = "compressed"
+at_s = 0.125
+for_s = 0.125
+step = 6.0
+
+[[fault]]
+kind = "jitter"
+at_s = 0.125
+for_s = 0.125
+waver_ms = 2.5
+
 [[event]]
 at_s = 0.5
 kind = "claim"

@@ -36,16 +36,16 @@ class SessionSettings : public testing::Test {
 };
 
 TEST_F(SessionSettings, ReadsEveryTable) {
-  ASSERT_EQ(load(kWhole +
-                 "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
-                 "max_acceleration_mm_s2 = 2000.5\nmax_height_speed_mm_s = 150\n"
-                 "max_height_acceleration_mm_s2 = 1000\nmax_turn_speed_deg_s = 600\n"
-                 "max_turn_acceleration_deg_s2 = 2000\nmax_lean_speed_deg_s = 25\n"
-                 "max_lean_acceleration_deg_s2 = 500\n[edges]\ninitial_threshold = 150\n"
-                 "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
-                 "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
-                 "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"m\"\nsigma = [1.0]\n[tool_quality]\n"
-                 "id = \"t1\"\nmade_at = 1995-08-01\n"),
+  ASSERT_EQ(load(kWhole + "optimum_px = [320, 190.5]\n[motion]\nmax_speed_mm_s = 250\n"
+                          "max_acceleration_mm_s2 = 2000.5\nmax_height_speed_mm_s = 150\n"
+                          "max_height_acceleration_mm_s2 = 1000\nmax_turn_speed_deg_s = 600\n"
+                          "max_turn_acceleration_deg_s2 = 2000\nmax_lean_speed_deg_s = 25\n"
+                          "max_lean_acceleration_deg_s2 = 500\n[edges]\ninitial_threshold = 150\n"
+                          "region_threshold = 50\n[verification]\naligned_within_mm = 2\n"
+                          "claim_within_s = 0.04\nclaim_oldest_s = 0.2\n"
+                          "[camera_quality]\nid = \"c1\"\nserial = \"4711\"\nmodel = \"m\"\nsigma "
+                          "= [1.0]\n[tool_quality]\n"
+                          "id = \"t1\"\nmade_at = 1995-08-01\n"),
             Messages{});
 
   EXPECT_EQ(settings_.camera.width_px, 635);

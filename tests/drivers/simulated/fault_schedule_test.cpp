@@ -182,6 +182,9 @@ TEST(FaultWords, AreOneForEachKind) {
   EXPECT_EQ(name_of(FaultKind::kOtherCamera), "other-camera");
   EXPECT_EQ(name_of(FaultKind::kSkip), "skip");
   EXPECT_EQ(name_of(FaultKind::kPoseStep), "pose-step");
+  EXPECT_EQ(name_of(FaultKind::kHeld), "held");
+  EXPECT_EQ(name_of(FaultKind::kCompressed), "compressed");
+  EXPECT_EQ(name_of(FaultKind::kJitter), "jitter");
 }
 
 }  // namespace
