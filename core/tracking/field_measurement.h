@@ -48,7 +48,11 @@ struct LightLevels {
 /// Those that a start begins with.
 template <Scalar S>
 [[nodiscard]] LightLevels first_light(const TrackingModel<S>& model) {
-  return {model.region_threshold, edges::DynamicThreshold(model.initial_threshold)};
+  LightLevels light{.edge_threshold = edges::DynamicThreshold(model.initial_threshold)};
+  if (model.region_threshold > 0) {
+    light.region_threshold = model.region_threshold;
+  }
+  return light;
 }
 
 /// A place of a recognised plug in this field.

@@ -137,9 +137,9 @@ Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectatio
 }
 
 template <Scalar S>
-StartRefusal SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
-                                          SheetPose<S>& pose) {
-  return find_start_pose<S>(*model_, *map_, field, clicks, record_.light, pose);
+StartAnswer SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
+                                         ClickSearch search, SheetPose<S>& pose) {
+  return find_start_pose<S>(*model_, *map_, field, clicks, search, record_.light, pose);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(SheetObserver)

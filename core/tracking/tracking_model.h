@@ -37,7 +37,7 @@ struct TrackingModel {
   Mm<S> max_acceleration_m_s2{};  ///< in metres: 3000 mm/s^2 and more leave the format
   Mm<S> aligned_within_mm{};
   std::int32_t initial_threshold = 200;
-  std::int32_t region_threshold = 60;
+  std::int32_t region_threshold = 0;  ///< zero: midway between clicked tube-ends and their sheet
 };
 
 }  // namespace tubesight::core::tracking
