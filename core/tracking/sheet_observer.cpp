@@ -4,6 +4,7 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/tracking/bright_patch.h"
 #include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
 
@@ -78,9 +79,13 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     constexpr std::int32_t kBisectedRange = 6;
     range_px = kBisectedRange * step_px;
   }
-  const FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  if (found.measured == 0 && found.bright > 2 &&
+      follow_darkness<S>(*model_, field, seen.pose, candidates_, record_.light)) {
+    found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  }
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
-  seen.contradiction = found.bright > std::max(seen.fit.used, 2) ||
+  seen.contradiction = (found.bright > std::max(seen.fit.used, 2) && !outweighs_bright(seen.fit)) ||
                        (expected.confirm_all && 2 * found.measured < found.looked_at);
   if (!seen.fit.solved || seen.fit.used < 2) {
     return no_tubes();
@@ -123,6 +128,15 @@ FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t rang
                             {found.next, candidates_.size(), close_px}, record_);
   seen.fit = fit_pose<S>(*model_, prior, record_.measured, equations_, seen.pose);
   return found;
+}
+
+// Whether what fits is worth more than all that is bright: tube-ends enough to be no chance, and
+// the bright ones one patch that no other addresses explain.
+template <Scalar S>
+bool SheetObserver<S>::outweighs_bright(const PoseFit<S>& fit) const {
+  constexpr std::int32_t kMany = 8;
+  return fit.solved && fit.used >= kMany && is_one_patch<S>(*model_, record_.sites.bright) &&
+         !fits_other_addresses();
 }
 
 template <Scalar S>

@@ -100,6 +100,7 @@ class SheetObserver {
   }
 
  private:
+  [[nodiscard]] bool outweighs_bright(const PoseFit<S>& fit) const;
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
                                      const PosePrior<S>& prior, Observation<S>& seen);
 
