@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "board/box/start_text.h"
 #include "core/base/words.h"
 #include "drivers/files/decimal.h"
 #include "hal/dimmer.h"
@@ -145,8 +146,7 @@ std::string answer_to(std::string_view command, const core::StartReply& reply) {
     line.add("error", core::name_of(reply.refusal));
   }
   return line
-      .add("text", taken ? std::string("taken: the box tracks")
-                         : "refused: " + std::string(core::explain(reply.refusal)))
+      .add("text", taken ? std::string("taken: the box tracks") : "refused: " + refusal_text(reply))
       .finish();
 }
 

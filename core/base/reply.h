@@ -63,6 +63,7 @@ struct ClaimReply {
 /// The answer to a Start; taken when there is no refusal.
 struct StartReply {
   StartRefusal refusal = StartRefusal::kNone;
+  std::int32_t click = -1;  ///< the one to blame, counted from 0; -1: none alone is
 };
 
 /// Why no tube can be named at a place; docs/messages.md has the words.

@@ -101,7 +101,7 @@ struct MotionSettings {
 /// Start values of the dynamic thresholds; the table `[edges]`. Zero: the program's own.
 struct EdgeSettings {
   std::int32_t initial_threshold = 200;  ///< sum of 24 grey values' differences [Fallon eq. 6.1]
-  std::int32_t region_threshold = 60;    ///< mean grey value of the 16-pixel cross-hair
+  std::int32_t region_threshold = 0;     ///< mean grey value of the 16-pixel cross-hair
 };
 
 /// The alignment gate and the instants of claims; the table `[verification]`.

@@ -126,11 +126,10 @@ void Session<S, Margin>::answer(const Event& event, const Input& input, std::int
   std::visit(
       Overloaded{[&](const Claim& claim) { claims_.take(event, claim, recent_, output.replies); },
                  [&](const Start&) {
-                   StartRefusal refusal = start_refusals_[start++];
-                   if (refusal == StartRefusal::kNone) {
-                     refusal = tracker_.start_refusal();
-                   }
-                   reply(StartReply{refusal});
+                   const StartRefusal refusal = start_refusals_[start++];
+                   reply(refusal == StartRefusal::kNone
+                             ? StartReply{tracker_.start_refusal(), tracker_.refused_click()}
+                             : StartReply{refusal});
                  },
                  [&](const Pick& pick) {
                    reply(verification::judge_pick<S>(pick, recent_, model_, map_));

@@ -1,7 +1,9 @@
 #include "core/tracking/confirmed_start.h"
 
-#include "core/base/constant.h"
+#include <array>
+
 #include "core/base/instantiate.h"
+#include "core/base/overflow.h"
 #include "core/tracking/map_watch.h"
 #include "core/tracking/plane_length.h"
 #include "core/tracking/projection.h"
@@ -12,40 +14,43 @@ namespace {
 // The window's tube-ends must lie on the fitted plane: clicks far apart would let one wrong address
 // pass as a bad fit of three.
 template <Scalar S>
-bool confirms_clicks(const TrackingModel<S>& model, const Observation<S>& seen,
-                     const StartClickList& clicks) {
+StartAnswer confirm_clicks(const TrackingModel<S>& model, const Observation<S>& seen,
+                           const StartClickList& clicks) {
   // As ragged as the sheet is: a pixel in usual pictures, as many more in larger ones.
   if (seen.fit.rms_px > from_scaled<Px<S>>(model.reading_step_px, 0)) {
-    return false;
+    return StartRefusal::kAddresses;
   }
-  for (const StartClick& click : clicks) {
+  for (std::int32_t i = 0; i < clicks.size(); ++i) {
+    const StartClick& click = clicks[i];
     const auto at =
         to_sheet<S>(model, seen.pose,
                     {from_scaled<Px<S>>(click.u_q16, 16), from_scaled<Px<S>>(click.v_q16, 16)});
-    if (!at) {
-      return false;
-    }
-    const auto off = *at - model.lattice.offset(seen.pose.anchor, click.address);
-    if (plane_length(off) > model.bore_radius_mm) {
-      return false;
+    if (!at || plane_length(*at - model.lattice.offset(seen.pose.anchor, click.address)) >
+                   model.bore_radius_mm) {
+      return {StartRefusal::kAddresses, i};
     }
   }
-  return true;
+  return {};
 }
 
-}  // namespace
+// How a start is tried.
+struct Attempt {
+  ClickSearch search = ClickSearch::kBisected;
+  std::int32_t rough_q4 = 0;  // how far the clicked tube-ends may mislead, 1/16 mm
+};
 
 template <Scalar S>
-StartRefusal find_confirmed_start(const TrackingModel<S>& model, const FieldView& field,
-                                  const StartClickList& clicks, SheetObserver<S>& observer,
-                                  Observation<S>& seen) {
+StartAnswer try_start(const TrackingModel<S>& model, const FieldView& field,
+                      const StartClickList& clicks, const Attempt& attempt,
+                      SheetObserver<S>& observer, Observation<S>& seen) {
   constexpr int kRounds = 4;
   seen = {};
-  const StartRefusal refusal = observer.find_start(field, clicks, seen.pose);
-  if (refusal != StartRefusal::kNone) {
-    return refusal;
+  observer.begin();
+  const StartAnswer answer = observer.find_start(field, clicks, attempt.search, seen.pose);
+  if (!answer.taken()) {
+    return answer;
   }
-  const Mm<S> rough = constant<Mm<S>>(2.0);  // how far three bisected tube-ends may mislead
+  const Mm<S> rough = from_scaled<Mm<S>>(attempt.rough_q4, 4);
   for (int round = 1; round <= kRounds; ++round) {
     seen = observer.observe(field, {seen.pose, rough, false, round == kRounds});
     if (!seen.fitted) {
@@ -55,18 +60,46 @@ StartRefusal find_confirmed_start(const TrackingModel<S>& model, const FieldView
   if (!seen.fitted || seen.contradiction || seen.fit.used < 3) {
     return StartRefusal::kPicture;
   }
-  if (!confirms_clicks<S>(model, seen, clicks)) {
-    return StartRefusal::kAddresses;
+  if (const StartAnswer confirmed = confirm_clicks<S>(model, seen, clicks); !confirmed.taken()) {
+    return confirmed;
   }
   const bool refuted =
       MapWatch::refuted_by(observer.record().sites) || observer.fits_other_addresses();
   return refuted ? StartRefusal::kMap : StartRefusal::kNone;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                           \
-  template StartRefusal find_confirmed_start<S>(const TrackingModel<S>&, const FieldView&, \
-                                                const StartClickList&, SheetObserver<S>&,  \
-                                                Observation<S>&);
+}  // namespace
+
+template <Scalar S>
+StartAnswer find_confirmed_start(const TrackingModel<S>& model, const FieldView& field,
+                                 const StartClickList& clicks, SheetObserver<S>& observer,
+                                 Observation<S>& seen) {
+  // Bisection is enough in a clean picture. Circles mislead less; at their last attempt so little
+  // that the tube-ends around need no bisection either.
+  constexpr std::array kAttempts{Attempt{ClickSearch::kBisected, 2 * 16},
+                                 Attempt{ClickSearch::kRound, 2 * 16},
+                                 Attempt{ClickSearch::kRound, 16}};
+  StartAnswer answer;
+  for (const Attempt& attempt : kAttempts) {
+    static_cast<void>(take_overflow_flag());  // of a pose that is not used
+    answer = try_start<S>(model, field, clicks, attempt, observer, seen);
+    // What the map refutes it would refute again, and circles are looked for once, but where the
+    // window did not confirm them.
+    const bool final = answer.taken() || answer.refusal == StartRefusal::kTooFew ||
+                       answer.refusal == StartRefusal::kMap;
+    const bool by_clicks =
+        attempt.search == ClickSearch::kRound && answer.refusal != StartRefusal::kPicture;
+    if (final || by_clicks) {
+      break;
+    }
+  }
+  return answer;
+}
+
+#define TUBESIGHT_INSTANTIATE(S)                                                          \
+  template StartAnswer find_confirmed_start<S>(const TrackingModel<S>&, const FieldView&, \
+                                               const StartClickList&, SheetObserver<S>&,  \
+                                               Observation<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

@@ -184,6 +184,67 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
   return count;
 }
 
+namespace {
+
+// The mean of the sheet a fifth of the radius outside a rim.
+template <Scalar S>
+std::int32_t grey_around(const FieldView& field, const RimOutline<S>& rim) {
+  std::int32_t sum = 0;
+  for (const Vector2<Px<S>>& point : rim.points) {
+    const auto outwards = [](Px<S> at, Px<S> middle) {
+      return rounded(at) + (rounded(at) - rounded(middle)) / 5;
+    };
+    const std::int32_t u = outwards(point.x, rim.middle.x);
+    const std::int32_t line =
+        (outwards(point.y, rim.middle.y) - field.first_line) / field.line_step;
+    sum += field.pixels[static_cast<std::ptrdiff_t>(std::clamp(line, 0, field.lines - 1)) *
+                            field.stride_px +
+                        std::clamp(u, 0, field.width_px - 1)];
+  }
+  return sum / kRimPoints;
+}
+
+}  // namespace
+
+template <Scalar S>
+bool follow_darkness(const TrackingModel<S>& model, const FieldView& field,
+                     const SheetPose<S>& pose, const CandidateList<S>& candidates,
+                     LightLevels& light) {
+  constexpr std::int32_t kMost = 12;
+  constexpr std::int32_t kFewest = 3;
+  constexpr std::int32_t kLeastContrast = 24;  // grey levels: less is a stain
+  StaticVector<std::int32_t, kMost> inside;
+  StaticVector<std::int32_t, kMost> around;
+  const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
+  for (const Candidate<S>& candidate : candidates) {
+    if (inside.size() == kMost) {
+      break;
+    }
+    const auto seen = in_view<S>(model, pose, spokes, candidate);
+    if (candidate.state != TubeState::kOpen || !seen) {
+      continue;
+    }
+    const auto& [rim, box] = *seen;
+    static_cast<void>(inside.try_push_back(
+        edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2)));
+    static_cast<void>(around.try_push_back(grey_around<S>(field, rim)));
+  }
+  if (inside.size() < kFewest) {
+    return false;
+  }
+  std::sort(inside.begin(), inside.end());
+  std::sort(around.begin(), around.end());
+  // Medians: plugs and bright spots are the fewer, or it is no other light.
+  const std::int32_t dark = inside[inside.size() / 2];
+  const std::int32_t bright = around[around.size() / 2];
+  const std::int32_t midway = (dark + bright) / 2;
+  if (bright - dark < std::max(kLeastContrast, bright / 4) || midway <= light.region_threshold) {
+    return false;
+  }
+  light.region_threshold = midway;
+  return true;
+}
+
 template <Scalar S>
 void look_at_sites(const TrackingModel<S>& model, const FieldView& field, const SheetPose<S>& pose,
                    const SiteList<S>& closed, const LightLevels& light, SiteSightings& sites) {
@@ -317,14 +378,16 @@ bool shift_onto_dark_regions(const TrackingModel<S>& model, const FieldView& fie
   return true;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                                 \
-  template FindingCount measure_field<S>(const TrackingModel<S>&, const FieldView&,              \
-                                         const SheetPose<S>&, const CandidateList<S>&,           \
-                                         const LookRange&, FieldRecord<S>&);                     \
-  template void look_at_sites<S>(const TrackingModel<S>&, const FieldView&, const SheetPose<S>&, \
-                                 const SiteList<S>&, const LightLevels&, SiteSightings&);        \
-  template bool shift_onto_dark_regions<S>(const TrackingModel<S>&, const FieldView&,            \
-                                           const CandidateList<S>&, Mm<S>, LightLevels&,         \
+#define TUBESIGHT_INSTANTIATE(S)                                                                   \
+  template FindingCount measure_field<S>(const TrackingModel<S>&, const FieldView&,                \
+                                         const SheetPose<S>&, const CandidateList<S>&,             \
+                                         const LookRange&, FieldRecord<S>&);                       \
+  template bool follow_darkness<S>(const TrackingModel<S>&, const FieldView&, const SheetPose<S>&, \
+                                   const CandidateList<S>&, LightLevels&);                         \
+  template void look_at_sites<S>(const TrackingModel<S>&, const FieldView&, const SheetPose<S>&,   \
+                                 const SiteList<S>&, const LightLevels&, SiteSightings&);          \
+  template bool shift_onto_dark_regions<S>(const TrackingModel<S>&, const FieldView&,              \
+                                           const CandidateList<S>&, Mm<S>, LightLevels&,           \
                                            SheetPose<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE

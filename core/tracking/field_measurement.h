@@ -48,7 +48,11 @@ struct LightLevels {
 /// Those that a start begins with.
 template <Scalar S>
 [[nodiscard]] LightLevels first_light(const TrackingModel<S>& model) {
-  return {model.region_threshold, edges::DynamicThreshold(model.initial_threshold)};
+  LightLevels light{.edge_threshold = edges::DynamicThreshold(model.initial_threshold)};
+  if (model.region_threshold > 0) {
+    light.region_threshold = model.region_threshold;
+  }
+  return light;
 }
 
 /// A place of a recognised plug in this field.
@@ -119,6 +123,15 @@ template <Scalar S>
                                          const SheetPose<S>& pose,
                                          const CandidateList<S>& candidates, const LookRange& look,
                                          FieldRecord<S>& record);
+
+/// Takes another light for granted when most of the tube-ends that should be open are clearly
+/// darker than the sheet around them, though brighter than the threshold: a raised black level,
+/// less contrast. `light` is changed on true only. For fields in which nothing was measured; looks
+/// at the first twelve candidates in the window, some 1,500 instructions each.
+template <Scalar S>
+[[nodiscard]] bool follow_darkness(const TrackingModel<S>& model, const FieldView& field,
+                                   const SheetPose<S>& pose, const CandidateList<S>& candidates,
+                                   LightLevels& light);
 
 /// Looks at sites that should be closed, with a pose that fits the field: `sites` gets what they
 /// look like. An open tube-end is one that would be measured as such. Light is not followed. Some

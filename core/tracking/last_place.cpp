@@ -40,19 +40,25 @@ bool LastPlace<S>::refutes(const TrackingModel<S>& model, const tubesheet::Sheet
   if (!known_ || field.status != FieldStatus::kGood) {
     return false;
   }
-  LightLevels light = first_light<S>(model);  // a track's is left alone
-  SheetPose<S> pose;
-  if (find_start_pose<S>(model, map, field.pixels, clicks, light, pose) != StartRefusal::kNone) {
-    return false;
+  // A start may come of either search.
+  for (const ClickSearch search : {ClickSearch::kBisected, ClickSearch::kRound}) {
+    LightLevels light = first_light<S>(model);  // a track's is left alone
+    SheetPose<S> pose;
+    if (!find_start_pose<S>(model, map, field.pixels, clicks, search, light, pose).taken()) {
+      continue;
+    }
+    const auto tool = find_tool_point<S>(model, pose);
+    if (!tool || take_overflow_flag()) {
+      continue;
+    }
+    const Vector2<Mm<S>> way = model.lattice.offset(anchor_, pose.anchor) + tool->local - local_;
+    const std::int64_t way_q4 = to_scaled(plane_length(way), 4);
+    // A way that leaves the range of numbers is a long one.
+    if (take_overflow_flag() || way_q4 > reach_q4<S>(model, field.mid_exposure - time_)) {
+      return true;
+    }
   }
-  const auto tool = find_tool_point<S>(model, pose);
-  if (!tool || take_overflow_flag()) {
-    return false;
-  }
-  const Vector2<Mm<S>> way = model.lattice.offset(anchor_, pose.anchor) + tool->local - local_;
-  const std::int64_t way_q4 = to_scaled(plane_length(way), 4);
-  // A way that leaves the range of numbers is a long one.
-  return take_overflow_flag() || way_q4 > reach_q4<S>(model, field.mid_exposure - time_);
+  return false;
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(LastPlace)

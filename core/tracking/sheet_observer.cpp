@@ -5,6 +5,7 @@
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
 #include "core/base/overflow.h"
+#include "core/tracking/bright_patch.h"
 #include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
 
@@ -105,10 +106,14 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     constexpr std::int32_t kBisectedRange = 6;
     range_px = kBisectedRange * step_px;
   }
-  const FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  if (found.measured == 0 && found.bright > 2 &&
+      follow_darkness<S>(*model_, field, seen.pose, candidates_, record_.light)) {
+    found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
+  }
   seen.looked_at = found.looked_at;
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
-  seen.contradiction = found.bright > std::max(seen.fit.used, 2) ||
+  seen.contradiction = (found.bright > std::max(seen.fit.used, 2) && !outweighs_bright(seen.fit)) ||
                        (expected.confirm_all && 2 * found.measured < found.looked_at);
   if (!seen.fit.solved || seen.fit.used < 2) {
     return no_tubes();
@@ -154,6 +159,15 @@ FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t rang
   return found;
 }
 
+// Whether what fits is worth more than all that is bright: tube-ends enough to be no chance, and
+// the bright ones one patch that no other addresses explain.
+template <Scalar S>
+bool SheetObserver<S>::outweighs_bright(const PoseFit<S>& fit) const {
+  constexpr std::int32_t kMany = 8;
+  return fit.solved && fit.used >= kMany && is_one_patch<S>(*model_, record_.sites.bright) &&
+         !fits_other_addresses();
+}
+
 template <Scalar S>
 Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectation<S>& expected) {
   // What is learnt of light and plugs is learnt from pictures that are believed.
@@ -173,9 +187,9 @@ Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectatio
 }
 
 template <Scalar S>
-StartRefusal SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
-                                          SheetPose<S>& pose) {
-  return find_start_pose<S>(*model_, *map_, field, clicks, record_.light, pose);
+StartAnswer SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
+                                         ClickSearch search, SheetPose<S>& pose) {
+  return find_start_pose<S>(*model_, *map_, field, clicks, search, record_.light, pose);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(SheetObserver)

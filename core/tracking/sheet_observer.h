@@ -100,8 +100,8 @@ class SheetObserver {
   [[nodiscard]] Observation<S> glance(const FieldView& field, const Expectation<S>& expected);
 
   /// The operator's clicks as a rough pose: find_start_pose() with this observer's light.
-  [[nodiscard]] StartRefusal find_start(const FieldView& field, const StartClickList& clicks,
-                                        SheetPose<S>& pose);
+  [[nodiscard]] StartAnswer find_start(const FieldView& field, const StartClickList& clicks,
+                                       ClickSearch search, SheetPose<S>& pose);
 
   /// Whether the field looked at last fits the settings' lists better with other addresses.
   [[nodiscard]] bool fits_other_addresses() const {
@@ -120,6 +120,7 @@ class SheetObserver {
   }
 
  private:
+  [[nodiscard]] bool outweighs_bright(const PoseFit<S>& fit) const;
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
                                      const PosePrior<S>& prior, Observation<S>& seen);
 

@@ -6,7 +6,6 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
-#include "core/edges/dark_region.h"
 #include "core/tracking/projection.h"
 #include "core/tracking/rim_outline.h"
 #include "core/tracking/tool_point.h"
@@ -18,7 +17,7 @@ namespace {
 template <Scalar S>
 struct Anchor {
   TubeAddress address{};
-  edges::DarkRegion region{};
+  ClickedTube tube{};
   Vector2<Mm<S>> seen{};
   Vector2<Mm<S>> local{};  // mm from the first click's tube
 };
@@ -26,55 +25,35 @@ struct Anchor {
 template <Scalar S>
 using AnchorList = StaticVector<Anchor<S>, kMaxStartPoints>;
 
-// The dark around a click. How large it is, is not known yet: a small one is looked at more
-// closely.
 template <Scalar S>
-edges::DarkRegion find_clicked(const TrackingModel<S>& model, const FieldView& field,
-                               const StartClick& click,
-                               const edges::DynamicThreshold& first_threshold) {
-  // A tube-end fills a third of the picture at most.
-  const std::int32_t reach_px = model.picture_width_px / 4;
-  constexpr std::int32_t kReadings = 20;  // across one
-  const auto look = [&](std::int32_t step_px) {
-    edges::DynamicThreshold threshold = first_threshold;
-    return edges::find_dark_region(field, click.u_q16 / 65536, click.v_q16 / 65536, reach_px,
-                                   threshold, step_px);
-  };
-  const edges::DarkRegion region = look(model.reading_step_px);
-  const bool large = region.height_q16() / 65536 >= kReadings * model.reading_step_px;
-  return model.reading_step_px == 1 || (region.found && large) ? region : look(1);
-}
-
-template <Scalar S>
-StartRefusal find_anchors(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                          const FieldView& field, const StartClickList& clicks, LightLevels& light,
-                          AnchorList<S>& anchors) {
-  for (const StartClick& click : clicks) {
-    const TubeState state = map.state(click.address);
-    if (state == TubeState::kAbsent) {
-      return StartRefusal::kAddresses;
+StartAnswer find_anchors(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                         const FieldView& field, const StartClickList& clicks, ClickSearch search,
+                         const LightLevels& light, AnchorList<S>& anchors) {
+  for (std::int32_t i = 0; i < clicks.size(); ++i) {
+    const StartClick& click = clicks[i];
+    if (map.state(click.address) == TubeState::kAbsent) {
+      return {StartRefusal::kAddresses, i};
     }
     Anchor<S> anchor;
     anchor.address = click.address;
-    anchor.region = find_clicked<S>(model, field, click, light.edge_threshold);
-    if (!anchor.region.found) {
-      return StartRefusal::kNoTubeThere;
+    anchor.tube = find_clicked_tube<S>(model, field, click.u_q16 / 65536, click.v_q16 / 65536,
+                                       search, light.edge_threshold);
+    if (!anchor.tube.found) {
+      return {StartRefusal::kNoTubeThere, i};
     }
-    const auto plane =
-        model.camera.to_plane({from_scaled<Px<S>>(anchor.region.center_u_q16(), 16),
-                               from_scaled<Px<S>>(anchor.region.center_v_q16(), 16)});
+    const auto plane = model.camera.to_plane({from_scaled<Px<S>>(anchor.tube.center_u_q16, 16),
+                                              from_scaled<Px<S>>(anchor.tube.center_v_q16, 16)});
     const auto seen = model.virtual_plane.from_image(plane);
     if (!seen) {
-      return StartRefusal::kNoTubeThere;
+      return {StartRefusal::kNoTubeThere, i};
     }
     anchor.seen = *seen;
     anchor.local = model.lattice.offset(clicks[0].address, click.address);
     for (const Anchor<S>& other : anchors) {
-      if (std::abs(other.region.center_u_q16() - anchor.region.center_u_q16()) <
-              other.region.width_q16() / 2 &&
-          std::abs(other.region.center_v_q16() - anchor.region.center_v_q16()) <
-              other.region.height_q16() / 2) {
-        return StartRefusal::kSameTubeTwice;
+      if (std::abs(other.tube.center_u_q16 - anchor.tube.center_u_q16) < other.tube.width_q16 / 2 &&
+          std::abs(other.tube.center_v_q16 - anchor.tube.center_v_q16) <
+              other.tube.height_q16 / 2) {
+        return {StartRefusal::kSameTubeTwice, i};
       }
     }
     static_cast<void>(anchors.try_push_back(anchor));
@@ -212,34 +191,45 @@ std::int32_t image_width_q16(const TrackingModel<S>& model, const Vector3<Mm<S>>
   return most - least;
 }
 
-// The clicked tube-ends must be as large as bores at that distance look.
+// The clicked tube-ends must be as large as bores at that distance look: the first that is not, -1
+// where all are.
 template <Scalar S>
-bool sizes_fit(const TrackingModel<S>& model, const SheetPose<S>& pose,
-               const AnchorList<S>& anchors) {
+std::int32_t find_misfit(const TrackingModel<S>& model, const SheetPose<S>& pose,
+                         const AnchorList<S>& anchors) {
   const RimSpokes<S> spokes = make_rim_spokes<S>(pose, model.bore_radius_mm);
-  for (const Anchor<S>& anchor : anchors) {
+  for (std::int32_t i = 0; i < anchors.size(); ++i) {
     const std::int32_t predicted =
-        image_width_q16<S>(model, pose.origin + pose.along(anchor.local), spokes);
-    if (std::abs(anchor.region.width_q16() - predicted) > predicted / 4) {
-      return false;
+        image_width_q16<S>(model, pose.origin + pose.along(anchors[i].local), spokes);
+    if (std::abs(anchors[i].tube.width_q16 - predicted) > predicted / 4) {
+      return i;
     }
   }
-  return true;
+  return -1;
+}
+
+// Midway between the clicked tube-ends and their surroundings: it is sheet what is brighter.
+template <Scalar S>
+std::int32_t middle_grey(const AnchorList<S>& anchors) {
+  std::int32_t sum = 0;
+  for (const Anchor<S>& anchor : anchors) {
+    sum += anchor.tube.midway;
+  }
+  return sum / anchors.size();
 }
 
 }  // namespace
 
 template <Scalar S>
-StartRefusal find_start_pose(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                             const FieldView& field, const StartClickList& clicks,
-                             LightLevels& light, SheetPose<S>& pose) {
+StartAnswer find_start_pose(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                            const FieldView& field, const StartClickList& clicks,
+                            ClickSearch search, LightLevels& light, SheetPose<S>& pose) {
   if (clicks.size() < 3) {
     return StartRefusal::kTooFew;
   }
   AnchorList<S> anchors;
-  if (const auto refusal = find_anchors<S>(model, map, field, clicks, light, anchors);
-      refusal != StartRefusal::kNone) {
-    return refusal;
+  if (const StartAnswer answer = find_anchors<S>(model, map, field, clicks, search, light, anchors);
+      !answer.taken()) {
+    return answer;
   }
   Similarity<S> similarity;
   if (!fit_similarity<S>(anchors, similarity)) {
@@ -250,17 +240,20 @@ StartRefusal find_start_pose(const TrackingModel<S>& model, const tubesheet::She
       refusal != StartRefusal::kNone) {
     return refusal;
   }
-  if (!sizes_fit<S>(model, level, anchors)) {
-    return StartRefusal::kSize;
+  if (const std::int32_t misfit = find_misfit<S>(model, level, anchors); misfit >= 0) {
+    return {StartRefusal::kSize, misfit};
   }
   pose = level;
+  if (search == ClickSearch::kRound && model.region_threshold == 0) {
+    light.region_threshold = middle_grey<S>(anchors);
+  }
   return StartRefusal::kNone;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                                  \
-  template StartRefusal find_start_pose<S>(const TrackingModel<S>&, const tubesheet::SheetMap&,   \
-                                           const FieldView&, const StartClickList&, LightLevels&, \
-                                           SheetPose<S>&);
+#define TUBESIGHT_INSTANTIATE(S)                                                                \
+  template StartAnswer find_start_pose<S>(const TrackingModel<S>&, const tubesheet::SheetMap&,  \
+                                          const FieldView&, const StartClickList&, ClickSearch, \
+                                          LightLevels&, SheetPose<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

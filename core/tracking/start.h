@@ -6,6 +6,7 @@
 #include "core/base/reply.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
+#include "core/tracking/clicked_tube.h"
 #include "core/tracking/field_measurement.h"
 #include "core/tracking/sheet_pose.h"
 #include "core/tracking/tracking_model.h"
@@ -29,17 +30,39 @@ struct StartClick {
   }
 };
 
+/// What became of a start.
+struct StartAnswer {
+  StartRefusal refusal = StartRefusal::kNone;
+  std::int32_t click = -1;  ///< the one to blame, as listed; -1: none alone is
+
+  // Most refusals blame no click.
+  StartAnswer() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  StartAnswer(StartRefusal why, std::int32_t by = -1) : refusal(why), click(by) {}
+
+  [[nodiscard]] bool taken() const { return refusal == StartRefusal::kNone; }
+
+  /// The members of the state; see core/base/state_stream.h.
+  template <typename Self, typename Stream>
+  static void transfer(Self& self, Stream& stream) {
+    auto& [why, by] = self;
+    stream.choice(why, kLastStartRefusal);
+    stream.number(by, -1, std::int32_t{kMaxStartPoints});
+  }
+};
+
 using StartClickList = StaticVector<StartClick, kMaxStartPoints>;
 
 /// Finds the pose from an operator's rough clicks in one field [Fallon 6.1].
 ///
-/// Each click's tube-end is found by bisection; their centres on the virtual plane give heading,
+/// Each click's tube-end is found by `search`; their centres on the virtual plane give heading,
 /// height and place of a level sheet, whose handedness and residual refute wrong addresses. The
-/// caller's fit on the whole window then confirms it. `pose` is written on kNone only.
+/// caller's fit on the whole window then confirms it. `pose` is written on kNone only, and then
+/// `light` knows how dark tube-ends are, where they were looked for as circles.
 template <Scalar S>
-[[nodiscard]] StartRefusal find_start_pose(const TrackingModel<S>& model,
-                                           const tubesheet::SheetMap& map, const FieldView& field,
-                                           const StartClickList& clicks, LightLevels& light,
-                                           SheetPose<S>& pose);
+[[nodiscard]] StartAnswer find_start_pose(const TrackingModel<S>& model,
+                                          const tubesheet::SheetMap& map, const FieldView& field,
+                                          const StartClickList& clicks, ClickSearch search,
+                                          LightLevels& light, SheetPose<S>& pose);
 
 }  // namespace tubesight::core::tracking

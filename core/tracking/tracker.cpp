@@ -15,7 +15,7 @@ void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSighti
   if (clicks_ && takes(*clicks_, field)) {
     start(field, *clicks_);
   } else {
-    start_refusal_ = clicks_ ? StartRefusal::kElsewhere : start_refusal_;
+    start_answer_ = clicks_ ? StartRefusal::kElsewhere : start_answer_;
     if (knows_place()) {
       follow(field);
     }
@@ -53,12 +53,12 @@ void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks)
   map_watch_.begin();
   sites_.begin();
   if (field.status != FieldStatus::kGood) {
-    start_refusal_ = StartRefusal::kPicture;
+    start_answer_ = StartRefusal::kPicture;
     return;
   }
   Observation<S> seen;
-  start_refusal_ = find_confirmed_start<S>(*model_, field.pixels, clicks, observer_, seen);
-  if (start_refusal_ != StartRefusal::kNone) {
+  start_answer_ = find_confirmed_start<S>(*model_, field.pixels, clicks, observer_, seen);
+  if (!start_answer_.taken()) {
     observer_.clear_field();  // addresses that were refuted are not told
     return;
   }

@@ -67,7 +67,9 @@ class Tracker {
   }
 
   /// Why the last start was refused.
-  [[nodiscard]] StartRefusal start_refusal() const { return start_refusal_; }
+  [[nodiscard]] StartRefusal start_refusal() const { return start_answer_.refusal; }
+  /// The click to blame for it; -1: none alone is.
+  [[nodiscard]] std::int32_t refused_click() const { return start_answer_.click; }
 
   /// Where every tube of the window is expected after the last step() [Fallon 6.1]; empty unless
   /// tracking.
@@ -83,13 +85,12 @@ class Tracker {
   /// The members of the state; see core/base/state_stream.h. Model and map are the settings'.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [model, map, state, reason, clicks, start_refusal, good, motion, shown, judged, primary,
+    auto& [model, map, state, reason, clicks, start_answer, good, motion, shown, judged, primary,
            clock, gate, doubts, refuted, old_pictures, order, observer, last_place, map_watch,
            sites, confirmed] = self;
     stream.choice(state, TrackState::kLost);
     stream.choice(reason, kLastReason);
-    stream(clicks);
-    stream.choice(start_refusal, kLastStartRefusal);
+    stream(clicks, start_answer);
     stream(good, motion, shown, judged, primary, clock, gate, doubts, refuted, old_pictures, order,
            observer, last_place, map_watch, sites, confirmed);
   }
@@ -126,7 +127,7 @@ class Tracker {
   TrackState state_ = TrackState::kWaiting;
   Reason reason_ = Reason::kNoStart;
   std::optional<StartClickList> clicks_;  ///< of a start with the next field
-  StartRefusal start_refusal_ = StartRefusal::kNone;
+  StartAnswer start_answer_{};
 
   Observation<S> good_{};  ///< of the last field that was believed
   Motion<S> motion_{};     ///< between the last two of those

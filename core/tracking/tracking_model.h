@@ -47,7 +47,7 @@ struct TrackingModel {
   RateLimits<S> lean;
   Mm<S> aligned_within_mm{};
   std::int32_t initial_threshold = 200;
-  std::int32_t region_threshold = 60;
+  std::int32_t region_threshold = 0;  ///< zero: midway between clicked tube-ends and their sheet
 };
 
 }  // namespace tubesight::core::tracking

@@ -84,8 +84,7 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
   const EdgeSettings& edges = settings.edges;
   model.initial_threshold =
       edges.initial_threshold > 0 ? edges.initial_threshold : kOwn.initial_threshold;
-  model.region_threshold =
-      edges.region_threshold > 0 ? edges.region_threshold : kOwn.region_threshold;
+  model.region_threshold = edges.region_threshold;
   return {};
 }
 

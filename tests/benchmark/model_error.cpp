@@ -126,9 +126,10 @@ bool run(const RecordedSession& recording) {
   }
   LightLevels light;
   Pose pose;
-  if (find_start_pose<double>(*model, *map, recording.fields().front().pixels,
-                              make_start_clicks(recording.settings().start.tubes), light,
-                              pose) != StartRefusal::kNone) {
+  if (!find_start_pose<double>(*model, *map, recording.fields().front().pixels,
+                               make_start_clicks(recording.settings().start.tubes),
+                               ClickSearch::kBisected, light, pose)
+           .taken()) {
     return false;
   }
   std::printf("split,field,row,column,u_px,v_px,measured_u_px,measured_v_px,minor_radius_px\n");

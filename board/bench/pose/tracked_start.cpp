@@ -9,6 +9,7 @@
 #include "board/bench/script/replay_script.h"
 #include "board/bench/script/scripted_ports.h"
 #include "board/box/box_loop.h"
+#include "board/box/start_text.h"
 #include "core/base/names.h"
 #include "core/session/session.h"
 #include "drivers/files/messages.h"
@@ -105,7 +106,8 @@ struct TrackedStart::Run {
   /// Why the field last taken does not tell which tubes are seen.
   [[nodiscard]] std::string why_unknown() const {
     const core::Sighting& seen = loop.output().sighting;
-    const auto refusal = session.tracker().start_refusal();
+    const core::StartReply start{session.tracker().start_refusal(),
+                                 session.tracker().refused_click()};
     const bool refused = seen.reason == core::Reason::kStartRefused;
     std::string text = "which tubes this frame shows is not known: ";
     switch (seen.state) {
@@ -114,9 +116,9 @@ struct TrackedStart::Run {
       default: text += refused ? "the start was refused in field " : "no start until field "; break;
     }
     text += std::to_string(state_since) + " (";
-    text += refused ? name_of(refusal) : core::name_of(seen.reason);
+    text += refused ? name_of(start.refusal) : core::name_of(seen.reason);
     text += ": ";
-    text += refused ? explain(refusal) : explain(seen.reason);
+    text += refused ? refusal_text(start) : std::string(explain(seen.reason));
     return text + "), expected tubes tracked from the start to this frame";
   }
 

@@ -79,7 +79,7 @@ void ReplayStatistics::take_reply(const core::Reply& reply) {
       core::Overloaded{
           [this](const core::NotServedReply&) { ++not_served_; },
           [&](const core::StartReply& start) {
-            starts_.push_back({reply.at, start.refusal});
+            starts_.push_back({reply.at, start});
           },
           [&](const core::ClaimReply& claim) {
             if (claim.verdict == ClaimVerdict::kConfirmed) {

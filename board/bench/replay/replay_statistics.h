@@ -31,7 +31,7 @@ class ReplayStatistics {
  public:
   struct Start {
     core::FieldTime at{0};
-    core::tracking::StartRefusal refusal = core::tracking::StartRefusal::kNone;
+    core::StartReply reply{};
   };
   struct Loss {
     core::FieldTime at{0};

@@ -3,6 +3,7 @@
 #include <array>
 #include <string_view>
 
+#include "board/box/start_text.h"
 #include "core/base/names.h"
 #include "drivers/files/decimal.h"
 
@@ -71,11 +72,11 @@ void print_starts(std::string& out, const ReplayStatistics& statistics) {
     out += "  no start was given\n";
   }
   for (const auto& start : statistics.starts()) {
-    if (start.refusal == core::tracking::StartRefusal::kNone) {
+    if (start.reply.refusal == core::StartRefusal::kNone) {
       print(out, "  start at %.3f s taken\n", seconds(start.at));
     } else {
       print(out, "  start at %.3f s refused: %s: %s\n", seconds(start.at),
-            c_str(core::name_of(start.refusal)), c_str(core::explain(start.refusal)));
+            c_str(core::name_of(start.reply.refusal)), refusal_text(start.reply).c_str());
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "core/tracking/confirmed_start.h"
 
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -27,10 +28,16 @@ class ConfirmedStart : public ObservedScene<S> {
       EXPECT_TRUE(clicks.try_push_back({told[i], point.u_q16, point.v_q16}));
     }
     sheet_->draw(kOverTube, Parity::kEven, 1, frame_);
+    std::mt19937 random(5);
+    for (std::size_t i = 0; i < specks_; ++i) {
+      frame_[random() % frame_.size()] = 255;
+    }
     return find_confirmed_start<S>(scene_.model, sheet_->view(frame_, Parity::kEven), clicks,
-                                   *observer_, seen_);
+                                   *observer_, seen_)
+        .refusal;
   }
 
+  std::size_t specks_ = 0;
   Observation<S> seen_{};
 };
 TYPED_TEST_SUITE(ConfirmedStart, Scalars);
@@ -39,6 +46,18 @@ TYPED_TEST(ConfirmedStart, RefinesTheClicksOnTheWholeWindow) {
   ASSERT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
   ASSERT_TRUE(this->seen_.fitted);
   EXPECT_GE(this->seen_.fit.used, 3);
+  EXPECT_LT(this->error_mm(this->seen_), 0.3);
+}
+
+TYPED_TEST(ConfirmedStart, IsTakenUnderSpecksAndUnderARaisedBlackLevel) {
+  this->specks_ = 4000;
+  ASSERT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
+  EXPECT_LT(this->error_mm(this->seen_), 0.3);
+  EXPECT_NE(this->start({{20, 10}, {21, 10}, {20, 12}}), StartRefusal::kNone);
+  this->specks_ = 0;
+  this->sheet_->look.gain = 0.5;
+  this->sheet_->look.offset = 64.0;
+  ASSERT_EQ(this->start({{20, 10}, {21, 10}, {20, 11}}), StartRefusal::kNone);
   EXPECT_LT(this->error_mm(this->seen_), 0.3);
 }
 

@@ -124,6 +124,34 @@ TYPED_TEST(FieldMeasurement, FindsNothingOnAnEvenSheet) {
   EXPECT_EQ(count.bright, count.looked_at);
 }
 
+TYPED_TEST(FieldMeasurement, FollowsARaisedBlackLevelButNotPlugs) {
+  this->make();
+  const auto follow = [&] {
+    const auto pose = pose_at<TypeParam>(*this->scene_.settings, *this->sheet_, kOverTube, kTube);
+    return follow_darkness<TypeParam>(this->scene_.model,
+                                      this->sheet_->view(this->frame_, Parity::kEven), pose,
+                                      this->candidates_, this->record_.light);
+  };
+  // As contrast halved around 128: 12 and 140 become 70 and 134.
+  this->sheet_->look.gain = 0.5;
+  this->sheet_->look.offset = 64.0;
+  EXPECT_EQ(this->measure().measured, 0);
+  ASSERT_TRUE(follow());
+  EXPECT_NEAR(this->record_.light.region_threshold, 102, 6);
+  EXPECT_GE(this->measure().measured, 6);
+  EXPECT_FALSE(follow());  // it is as dark as that now
+  // Plugs are as bright as the sheet: nothing is followed.
+  this->record_.light = {};
+  for (std::int32_t row = 10; row < 30; ++row) {
+    for (std::int32_t column = 0; column < 20; ++column) {
+      this->sheet_->look.flush_plugs.push_back({row, column});
+    }
+  }
+  EXPECT_EQ(this->measure().measured, 0);
+  EXPECT_FALSE(follow());
+  EXPECT_EQ(this->record_.light.region_threshold, LightLevels{}.region_threshold);
+}
+
 TYPED_TEST(FieldMeasurement, ShiftsThePoseOntoTubeEndsThreeTenthsOfAStepOff) {
   this->make();
   using M = Mm<TypeParam>;

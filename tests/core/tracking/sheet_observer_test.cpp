@@ -85,7 +85,8 @@ TYPED_TEST(SheetObserverOf, GlancesWithoutLearning) {
   EXPECT_NE(this->observer_->record().light.region_threshold, threshold);
   // A new start forgets it.
   this->observer_->begin();
-  EXPECT_EQ(this->observer_->record().light.region_threshold, this->scene_.model.region_threshold);
+  EXPECT_EQ(this->observer_->record().light.region_threshold,
+            first_light<TypeParam>(this->scene_.model).region_threshold);
 }
 
 TYPED_TEST(SheetObserverOf, ListsNothingOfAFieldThatWasCleared) {

@@ -38,15 +38,20 @@ class StartOf : public ::testing::Test {
       const ImagePoint at = make_image_point(click.at);
       EXPECT_TRUE(list.try_push_back({click.told, at.u_q16, at.v_q16}));
     }
-    LightLevels light;
     pose_ = {};
-    return find_start_pose<S>(scene_.model, *scene_.map, view_, list, light, pose_);
+    const StartAnswer answer =
+        find_start_pose<S>(scene_.model, *scene_.map, view_, list, search_, light_, pose_);
+    blamed_ = answer.click;
+    return answer.refusal;
   }
 
   Scene<S> scene_;
   std::unique_ptr<SyntheticSheet> sheet_;
   Frame frame_;
   FieldView view_;
+  ClickSearch search_ = ClickSearch::kBisected;
+  LightLevels light_{};
+  std::int32_t blamed_ = -1;
   SheetPose<S> pose_{};
 };
 TYPED_TEST_SUITE(StartOf, Scalars);
@@ -71,6 +76,61 @@ TYPED_TEST(StartOf, GivesTheRoughPoseFromClicksUpTo60PercentOff) {
     const auto center = this->sheet_->center_of(this->pose_.anchor);
     EXPECT_LT(distance(tool->local, {axis[0] - center[0], axis[1] - center[1]}), 3.0) << i;
     EXPECT_NEAR(number(tool->height_mm), 60.0, 6.0) << i;
+  }
+}
+
+TYPED_TEST(StartOf, FindsTheSameByCirclesInASpoiltPicture) {
+  this->make();
+  this->search_ = ClickSearch::kRound;
+  const auto clicks = std::vector{this->on({20, 10}), this->on({21, 10}), this->on({20, 11})};
+  ASSERT_EQ(this->start(clicks), StartRefusal::kNone);
+  // Midway between 12 and 140.
+  EXPECT_NEAR(this->light_.region_threshold, 76, 6);
+  for (std::size_t i = 0; i < this->frame_.size(); i += 31) {
+    this->frame_[i] = 255;
+  }
+  ASSERT_EQ(this->start(clicks), StartRefusal::kNone);
+  const auto tool = find_tool_point<TypeParam>(this->scene_.model, this->pose_);
+  ASSERT_TRUE(tool.has_value());
+  const auto axis = this->sheet_->axis_point(kPlace);
+  const auto center = this->sheet_->center_of(this->pose_.anchor);
+  EXPECT_LT(distance(tool->local, {axis[0] - center[0], axis[1] - center[1]}), 3.0);
+}
+
+TYPED_TEST(StartOf, FindsATubeEndWhoseClickIsUnderABrightSpot) {
+  this->make();
+  this->search_ = ClickSearch::kRound;
+  const auto clicks = std::vector{this->on({20, 10}), this->on({21, 10}), this->on({20, 11})};
+  const auto width = this->scene_.settings->camera.width_px;
+  for (std::int32_t v = -14; v <= 14; ++v) {
+    for (std::int32_t u = -8; u <= 8; ++u) {
+      const auto at = clicks[1].at;
+      this->frame_[static_cast<std::size_t>((static_cast<std::int32_t>(at[1]) + v) * width +
+                                            static_cast<std::int32_t>(at[0]) + u)] = 255;
+    }
+  }
+  EXPECT_EQ(this->start(clicks), StartRefusal::kNone);
+}
+
+TYPED_TEST(StartOf, KeepsTheThresholdThatTheSettingsSet) {
+  this->make([](SessionSettings& settings) { settings.edges.region_threshold = 50; });
+  this->search_ = ClickSearch::kRound;
+  this->light_ = first_light<TypeParam>(this->scene_.model);
+  ASSERT_EQ(this->start({this->on({20, 10}), this->on({21, 10}), this->on({20, 11})}),
+            StartRefusal::kNone);
+  EXPECT_EQ(this->light_.region_threshold, 50);
+}
+
+TYPED_TEST(StartOf, TellsAClickOnTheSheetByCircles) {
+  this->make();
+  this->search_ = ClickSearch::kRound;
+  for (const auto& [x, y] :
+       {std::pair{10.5, 20.5}, {10.5, 20.0}, {10.0, 20.5}, {11.0, 20.5}, {9.5, 20.1}}) {
+    const auto at = this->sheet_->image_of(kPlace, {x * 25.4, y * 25.4, 0.0});
+    EXPECT_EQ(this->start({this->on({20, 10}), this->on({21, 10}), {{20, 11}, at}}),
+              StartRefusal::kNoTubeThere)
+        << x << ", " << y;
+    EXPECT_EQ(this->blamed_, 2);
   }
 }
 

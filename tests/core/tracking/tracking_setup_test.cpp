@@ -73,7 +73,7 @@ TYPED_TEST(TrackingSetup, TakesItsOwnThresholdForZero) {
   this->scene_.settings->edges = {300, 0};
   ASSERT_TRUE(this->make().has_value());
   EXPECT_EQ(this->scene_.model.initial_threshold, 300);
-  EXPECT_EQ(this->scene_.model.region_threshold, 60);
+  EXPECT_EQ(this->scene_.model.region_threshold, 0);
 }
 
 TYPED_TEST(TrackingSetup, RefusesATipBeyondTheFormat) {

@@ -156,7 +156,7 @@ TEST_F(ReplayStatisticsTest, CountTheAnswersOfEachKind) {
   statistics_.finish();
 
   ASSERT_EQ(statistics_.starts().size(), 2U);
-  EXPECT_EQ(statistics_.starts()[0].refusal, core::tracking::StartRefusal::kAddresses);
+  EXPECT_EQ(statistics_.starts()[0].reply.refusal, core::tracking::StartRefusal::kAddresses);
   EXPECT_EQ(statistics_.starts()[1].at, milliseconds(20));
   EXPECT_EQ(statistics_.claims_confirmed(), 1);
   ASSERT_EQ(statistics_.contradictions().size(), 1U);

@@ -1,0 +1,15 @@
+#include "board/box/start_text.h"
+
+#include <gtest/gtest.h>
+
+namespace tubesight::board {
+namespace {
+
+TEST(RefusalText, NamesTheClickToBlame) {
+  EXPECT_EQ(refusal_text({core::StartRefusal::kNoTubeThere, 2}),
+            "no dark tube-end around a click (click 3)");
+  EXPECT_EQ(refusal_text({core::StartRefusal::kTooFew}), "fewer than three clicks");
+}
+
+}  // namespace
+}  // namespace tubesight::board
