@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
 
 namespace tubesight::board {
@@ -85,14 +86,14 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "robot's base from pairs of poses");
   calibrate
       ->add_option("WHAT", arguments.what,
-                   "What is calibrated: camera, tool or base, or a base's zones")
+                   "What is calibrated: camera, tool or base, a base's zones, or an arm's links")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base", "zones"}));
+      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links"}));
   calibrate
       ->add_option(
           "FILE", arguments.file,
           "camera: template and views (TOML); tool: the session, with camera and tubesheet "
-          "(TOML); base and zones: poses by robot and by vision (CSV)")
+          "(TOML); base, zones and links: poses by robot and by vision (CSV)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
@@ -104,6 +105,10 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->add_option("--base", arguments.of_base,
                    "Of zones: a settings file with the [base] that they correct")
       ->option_text("BASE.toml");
+  calibrate
+      ->add_option("--arm", arguments.arm,
+                   "Of links: a settings file whose [robot] has the links on paper")
+      ->option_text("ARM.toml");
   return calibrate;
 }
 
@@ -111,6 +116,13 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
   if (arguments.what != "zones" && !arguments.of_base.empty()) {
     std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
     return ExitStatus::kWrongInput;
+  }
+  if (arguments.what != "links" && !arguments.arm.empty()) {
+    std::fprintf(stderr, "--arm: of links alone, expected calibrate links\n");
+    return ExitStatus::kWrongInput;
+  }
+  if (arguments.what == "links") {
+    return run_calibrate_links({arguments.file, arguments.arm, arguments.out});
   }
   if (arguments.what == "zones") {
     return run_calibrate_zones(

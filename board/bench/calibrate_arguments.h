@@ -20,6 +20,7 @@ struct CalibrateArguments {
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
   std::string of_base;  ///< the settings that zones correct
+  std::string arm;      ///< the arm whose links are calibrated
 };
 
 /// Adds `calibrate` with all its options, which are read into `arguments`.

@@ -38,26 +38,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 using Indices = StaticVector<std::int32_t, kMaxPairs>;
 
-/// Whether a pair comes before another: by all that is in them, so that equal ones may stand in
-/// either order.
-bool before(const BasePair& a, const BasePair& b) {
-  const auto decide = [](const auto& x, const auto& y) {
-    for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (x.data()[i] != y.data()[i]) {
-        return x.data()[i] < y.data()[i] ? -1 : 1;
-      }
-    }
-    return 0;
-  };
-  int order = decide(a.T_sheet_tool.translation_mm(), b.T_sheet_tool.translation_mm());
-  order =
-      order != 0 ? order : decide(a.T_base_tool.translation_mm(), b.T_base_tool.translation_mm());
-  order = order != 0 ? order : decide(a.T_sheet_tool.rotation(), b.T_sheet_tool.rotation());
-  order = order != 0 ? order : decide(a.T_base_tool.rotation(), b.T_base_tool.rotation());
-  order = order != 0 ? order : decide(a.sigma_mm, b.sigma_mm);
-  return order != 0 ? order < 0 : a.turned && !b.turned;
-}
-
 /// The extent of the places, mm: along, and across their longest direction.
 Eigen::Vector2d extent_of(const BasePairs& pairs, std::span<const std::int32_t> chosen) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -156,7 +136,7 @@ class Calibrator {
       return BaseRefusal::kTooFew;
     }
     std::sort(all_.begin(), all_.end(),
-              [&](std::int32_t a, std::int32_t b) { return before(pairs_[a], pairs_[b]); });
+              [&](std::int32_t a, std::int32_t b) { return comes_before(pairs_[a], pairs_[b]); });
     if (const BaseRefusal refusal = look_at_places(); refusal != BaseRefusal::kNone) {
       return refusal;
     }

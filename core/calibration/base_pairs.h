@@ -24,6 +24,10 @@ struct BasePair {
 
 using BasePairs = StaticVector<BasePair, kMaxPairs>;
 
+/// Whether a pair comes before another in an order of their own: by all that counts in them, so
+/// that equal ones may stand in either.
+[[nodiscard]] bool comes_before(const BasePair& a, const BasePair& b);
+
 /// Where the base stands, and how the tool that the robot means stands in the one that vision
 /// means: T_sheet_base T_base_tool X = T_sheet_tool.
 struct BasePose {

@@ -22,7 +22,8 @@ constexpr double kLeastTravel_rad = 0.35;
 constexpr double kForeign_mm = 50.0;  // arms sink by some 7 mm; another arm is a link off
 constexpr double kForeign_rad = 0.1;
 constexpr double kBetter = 0.8;
-constexpr int kSteps = 3;  // what is looked for is small
+constexpr double kNothing_mm = 0.1;  // as well as a robot comes back: nothing is to be gained
+constexpr int kSteps = 3;            // what is looked for is small
 
 using Numbers = std::array<double, kArmNumbers>;
 
@@ -259,7 +260,8 @@ void calibrate_links(const SerialArm& given, const BasePairs& pairs, const PairJ
   result.base_alone_mm = std::sqrt(squares[0] / static_cast<double>(good.size()));
   result.with_links_mm = std::sqrt(squares[1] / static_cast<double>(good.size()));
   State state{upright(start), {}};
-  if (result.with_links_mm > kBetter * result.base_alone_mm || !fit.run(good, true, state)) {
+  if (result.base_alone_mm < kNothing_mm || result.with_links_mm > kBetter * result.base_alone_mm ||
+      !fit.run(good, true, state)) {
     result.refusal = LinkRefusal::kNoBetter;
     return;
   }

@@ -213,4 +213,24 @@ std::string why_robot_cannot(const drivers::Scenario& scenario) {
   return {};
 }
 
+core::Result<void> load_arm(const std::string& path, core::kinematics::SerialArm& arm,
+                            drivers::Messages& messages) {
+  constexpr std::array<std::string_view, 3> kArmTables = {"robot", "base", "base_quality"};
+  drivers::DiskFiles files;
+  drivers::SettingsDocument document;
+  document.load(files, path, kArmTables);
+  read_table(document, "robot", true, [&](TableReader& table) {
+    if (!table.has("links")) {
+      table.list("links", true, kLinkExpected);  // says that it is missing
+      table.ignore("tool_mm");
+      table.ignore("near_deg");
+      return;
+    }
+    const auto robot = std::make_unique<SimulatedRobotSettings>();
+    read_arm(table, *robot);
+    arm = robot->believed.arm;
+  });
+  return document.report(messages);
+}
+
 }  // namespace tubesight::drivers

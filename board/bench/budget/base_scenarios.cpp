@@ -11,6 +11,7 @@
 
 #include "core/base/assert.h"
 #include "core/calibration/base_calibration.h"
+#include "core/calibration/link_calibration.h"
 #include "core/calibration/zone_field.h"
 #include "core/kinematics/cobra_arm.h"
 #include "core/kinematics/tool_path.h"
@@ -46,6 +47,14 @@ constexpr std::array<Stand, 8> kStands = {{{1700.0, 0.0, 0.0},
                                            {1700.0, 40.0, 60.0}}};
 constexpr std::array<double, 3> kDirections_deg = {-50.0, 5.0, 60.0};
 
+/// Place i of so many all over the generator: a sunflower's pattern within reach.
+Stand spread_out(std::int32_t i, std::int32_t count, double heading_deg) {
+  const double share = (i + 0.5) / count;
+  const double golden = 0.618034 * i;
+  return {std::sqrt(400.0 * 400.0 + share * (1850.0 * 1850.0 - 400.0 * 400.0)),
+          150.0 * (golden - std::floor(golden)) - 75.0, heading_deg};
+}
+
 InstalledArm believed_arm() {
   InstalledArm believed;
   believed.arm = kinematics::cobra_arm();
@@ -59,6 +68,7 @@ InstalledArm believed_arm() {
 struct Rest {
   core::Transform<core::frames::Base, core::frames::Tool> T_base_tool;
   core::Transform<core::frames::Sheet, core::frames::Tool> T_sheet_tool;
+  kinematics::JointVector joints_rad{};  ///< as they read
 };
 
 class Robot {
@@ -92,7 +102,7 @@ class Robot {
     drive.reset(errors_.drive, before);
     drive.turn_to(shafts->angles_rad);
     return {believed_.T_sheet_base.inverse() * tool_pose(believed_, drive.readings_rad()),
-            tool_pose(docked ? docked_ : truth_, drive.links_rad())};
+            tool_pose(docked ? docked_ : truth_, drive.links_rad()), drive.readings_rad()};
   }
 
  private:
@@ -128,6 +138,10 @@ struct Desk {
   calibration::BaseCalibration base;
   calibration::PairOutcomes outcomes;
   calibration::ZoneField field;
+  calibration::PairJoints joints;
+  calibration::LinkWorkspace workspace;
+  calibration::LinkCalibration links;
+  bool with_links = false;
 };
 
 std::vector<Eigen::Vector2d> tested_places() {
@@ -144,8 +158,13 @@ std::vector<Eigen::Vector2d> tested_places() {
 bool calibrate(const BaseMethod& method, const Robot& robot, std::uint64_t seed, Desk& desk) {
   Noise noise(seed);
   desk.pairs.clear();
-  for (std::int32_t i = 0; i < method.places; ++i) {
-    const Rest rest = robot.stand(kStands[static_cast<std::size_t>(i)], !method.vision);
+  desk.joints.clear();
+  const std::int32_t count = std::max(method.places, method.links);
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Stand at = method.links > 0 ? spread_out(i, count, 70.0 * (i % 4) - 105.0)
+                                      : kStands[static_cast<std::size_t>(i)];
+    const Rest rest = robot.stand(at, !method.vision);
+    static_cast<void>(desk.joints.try_push_back(rest.joints_rad));
     calibration::BasePair pair;
     pair.turned = method.vision;
     pair.T_base_tool = rest.T_base_tool;
@@ -158,25 +177,36 @@ bool calibrate(const BaseMethod& method, const Robot& robot, std::uint64_t seed,
     static_cast<void>(desk.pairs.try_push_back(pair));
   }
   calibration::calibrate_base(desk.pairs, {}, tested_places(), desk.base, desk.outcomes);
-  return desk.base.refusal == calibration::BaseRefusal::kNone;
+  if (desk.base.refusal != calibration::BaseRefusal::kNone) {
+    return false;
+  }
+  desk.with_links = false;
+  if (method.links > 0) {
+    calibration::calibrate_links(kinematics::cobra_arm(), desk.pairs, desk.joints,
+                                 desk.base.good.view(), desk.base.fit.pose, {}, desk.workspace,
+                                 desk.links);
+    desk.with_links = desk.links.refusal == calibration::LinkRefusal::kNone;
+  }
+  return true;
 }
 
-/// Where the tool is, by the calibrated base.
+/// Where the tool is, by the calibrated base, or by base and links.
 Eigen::Vector3d told_by(const Desk& desk, const Rest& rest) {
+  if (desk.with_links) {
+    const auto given = kinematics::cobra_arm().forward(rest.joints_rad);
+    const auto corrected =
+        rest.T_base_tool * (given.inverse() * desk.links.arm.forward(rest.joints_rad));
+    return desk.links.pose.T_sheet_base * corrected.translation_mm();
+  }
   return desk.base.fit.pose.T_sheet_base * rest.T_base_tool.translation_mm();
 }
 
-/// Corrections seen at places all over the generator, under the heading of the service: a
-/// sunflower's pattern within reach.
+/// Corrections seen at places all over the generator, under the heading of the service.
 void take_zones(const BaseMethod& method, const Robot& robot, std::uint64_t seed, Desk& desk) {
   Noise noise(seed + 0x5eedU);
   calibration::ZonePoints points;
   for (std::int32_t i = 0; i < method.zones; ++i) {
-    const double share = (i + 0.5) / method.zones;
-    const double golden = 0.618034 * i;
-    const Stand at{std::sqrt(400.0 * 400.0 + share * (1850.0 * 1850.0 - 400.0 * 400.0)),
-                   150.0 * (golden - std::floor(golden)) - 75.0, kServiceHeading_deg};
-    const Rest rest = robot.stand(at, false);
+    const Rest rest = robot.stand(spread_out(i, method.zones, kServiceHeading_deg), false);
     calibration::ZonePoint point;
     const Eigen::Vector3d seen = rest.T_sheet_tool.translation_mm() + noise.three(method.sigma_mm);
     point.at_mm = seen.head<2>();
@@ -190,10 +220,10 @@ void take_zones(const BaseMethod& method, const Robot& robot, std::uint64_t seed
 }  // namespace
 
 std::array<BaseMethod, 4> source_methods() {
-  return {{{"vision", true, 0.25 / std::numbers::sqrt2, 8, 0},
-           {"touch, skilled, special tool", false, 0.25, 3, 0},
-           {"touch, skilled, standard tool", false, 0.5, 3, 0},
-           {"touch, average, standard tool", false, 1.0, 3, 0}}};
+  return {{{"vision", true, 0.25 / std::numbers::sqrt2, 8, 0, 0},
+           {"touch, skilled, special tool", false, 0.25, 3, 0, 0},
+           {"touch, skilled, standard tool", false, 0.5, 3, 0, 0},
+           {"touch, average, standard tool", false, 1.0, 3, 0, 0}}};
 }
 
 ScenarioResult try_method(const BaseMethod& method, const ScenarioOptions& options) {

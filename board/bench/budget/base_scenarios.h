@@ -14,6 +14,7 @@ struct BaseMethod {
   bool vision = false;      ///< else docking: places alone, and the sheet pushes back
   double sigma_mm = 0.0;    ///< one sigma an axis, of a place by vision or of a touch
   std::int32_t places = 3;  ///< 3 to 8
+  std::int32_t links = 0;   ///< pairs all over it that calibrate the arm's links, too
   std::int32_t zones = 0;   ///< places all over the generator where vision corrects the base
 };
 

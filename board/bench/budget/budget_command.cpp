@@ -28,8 +28,13 @@ constexpr std::array<std::string_view, kVisionItems> kVisionNames = {
     "k",          "k2",      "camera",        "tool: tip",
     "tool: axis", "picture", "tubes' places", "vision together"};
 constexpr std::array<double, 6> kTouches_mm = {0.05, 0.1, 0.25, 0.5, 1.0, 2.0};
-constexpr std::array<Rgb, 6> kColours = {
-    {{20, 120, 220}, {30, 150, 60}, {230, 140, 20}, {210, 40, 40}, {130, 60, 180}, {60, 60, 60}}};
+constexpr std::array<Rgb, 7> kColours = {{{20, 120, 220},
+                                          {30, 150, 60},
+                                          {230, 140, 20},
+                                          {210, 40, 40},
+                                          {130, 60, 180},
+                                          {60, 60, 60},
+                                          {0, 160, 160}}};
 
 core::math::Matrix6d matrix_of(const std::array<double, 36>& values) {
   core::math::Matrix6d matrix;
@@ -231,8 +236,9 @@ class BudgetRun {
       methods.push_back(method);
     }
     const double vision_mm = vision_.across_mm / std::numbers::sqrt2;
-    methods.push_back({"vision, by these settings", true, vision_mm, 8, 0});
-    methods.push_back({"the same, 40 zone corrections", true, vision_mm, 8, 40});
+    methods.push_back({"vision, by these settings", true, vision_mm, 8, 0, 0});
+    methods.push_back({"the same, 40 zone corrections", true, vision_mm, 8, 0, 40});
+    methods.push_back({"the same, links of 40 pairs", true, vision_mm, 8, 40, 0});
     for (std::size_t m = 0; m < methods.size(); ++m) {
       const ScenarioResult result = try_method(methods[m], scenario_);
       const std::string name(methods[m].name);
@@ -266,7 +272,7 @@ class BudgetRun {
     Series touches{"touch", kColours[3], {}};
     Series vision{"vision, 0.25 mm", kColours[0], {}};
     for (const double sigma : kTouches_mm) {
-      const BudgetShare mean = mean_of(try_method({"touch", false, sigma, 3, 0}, scenario_));
+      const BudgetShare mean = mean_of(try_method({"touch", false, sigma, 3, 0, 0}, scenario_));
       drivers::print(text_, "  %5.2f  across %.3f  along %.3f\n", sigma, mean.across_mm,
                      mean.along_mm);
       touches.points.push_back({sigma, mean.across_mm});

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/base/trigonometry.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/text_files.h"
@@ -74,6 +75,25 @@ class RowReader {
     return pair;
   }
 
+  /// The joints' angles in these columns.
+  [[nodiscard]] core::kinematics::JointVector joints(const std::vector<std::size_t>& columns) {
+    core::kinematics::JointVector angles_rad{};
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      constexpr std::int32_t kDigits = 9;
+      constexpr double kLargestAngle_deg = 720.0;
+      std::int64_t value = 0;
+      const std::string& cell = cells_[columns[i]];
+      const bool number = drivers::parse_decimal(cell, kDigits, value);
+      const double angle_deg = 1e-9 * static_cast<double>(value);
+      if ((!number || std::abs(angle_deg) > kLargestAngle_deg) && problem_.empty()) {
+        problem_ = "joint_" + std::to_string(i + 1) + "_deg: " + drivers::in_quotes(cell) +
+                   ", expected a number within 720 with at most 9 decimals";
+      }
+      angles_rad[i] = core::radians(angle_deg);
+    }
+    return angles_rad;
+  }
+
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
@@ -108,12 +128,26 @@ class RowReader {
   std::string problem_;
 };
 
+/// Where joint_1_deg, joint_2_deg and so on are, as far as they go.
+std::vector<std::size_t> joint_columns_of(const drivers::CsvReader& reader) {
+  std::vector<std::size_t> columns;
+  while (columns.size() < static_cast<std::size_t>(core::kinematics::kMaxJoints)) {
+    const auto at = reader.find_column("joint_" + std::to_string(columns.size() + 1) + "_deg");
+    if (!at) {
+      break;
+    }
+    columns.push_back(*at);
+  }
+  return columns;
+}
+
 }  // namespace
 
 bool read_base_pairs(const std::string& path, NamedPairs& pairs,
                      std::vector<std::string>& messages) {
   pairs.pairs.clear();
   pairs.names.clear();
+  pairs.joints.clear();
   drivers::DiskFiles files;
   std::string text;
   std::string message;
@@ -125,9 +159,12 @@ bool read_base_pairs(const std::string& path, NamedPairs& pairs,
   if (!reader.read_header(kColumns, messages)) {
     return false;
   }
+  const std::vector<std::size_t> joint_columns = joint_columns_of(reader);
+  pairs.joint_columns = static_cast<std::int32_t>(joint_columns.size());
   while (reader.next(messages) && messages.size() < drivers::CsvReader::kMostMessages) {
     RowReader row(reader.cells());
     const BasePair pair = row.pair();
+    const core::kinematics::JointVector joints = row.joints(joint_columns);
     if (!row.problem().empty()) {
       messages.push_back(reader.place() + row.problem());
     } else if (!pairs.pairs.try_push_back(pair)) {
@@ -136,6 +173,7 @@ bool read_base_pairs(const std::string& path, NamedPairs& pairs,
                          " pairs, expected at most that many");
       return false;
     }
+    static_cast<void>(pairs.joints.try_push_back(joints));
     pairs.names.push_back(drivers::printable(reader.cells()[0]));
   }
   return messages.empty();

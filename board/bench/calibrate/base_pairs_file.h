@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "core/calibration/base_pairs.h"
+#include "core/calibration/link_calibration.h"
 
 namespace tubesight::board {
 
@@ -11,6 +13,8 @@ namespace tubesight::board {
 struct NamedPairs {
   core::calibration::BasePairs pairs;
   std::vector<std::string> names;
+  core::calibration::PairJoints joints;  ///< all 0 where the file has none
+  std::int32_t joint_columns = 0;        ///< joint_1_deg and so on
 };
 
 /// Reads PAIRS.csv (docs/file-formats.md). False, and a line in `messages` for each bad row, which

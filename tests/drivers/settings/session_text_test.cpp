@@ -156,7 +156,8 @@ TEST(SessionText, WritesEveryTableThatTheReaderKnowsButWhatACalibrationSays) {
   ASSERT_FALSE(read(kEveryKey + "[unheard_of]\n", *file, messages));
 
   for (const std::string& table : expected_words(messages.front())) {
-    const bool calibrated = table == "camera_quality" || table == "tool_quality" || table == "base";
+    const bool calibrated = table == "camera_quality" || table == "tool_quality" ||
+                            table == "base" || table == "base_quality";
     EXPECT_EQ(kEveryKey.find("[" + table + "]\n") == std::string::npos, calibrated) << table;
   }
 }

@@ -20,7 +20,7 @@ TEST(BaseScenarios, ABaseIsAllThatACalibrationTakesAway) {
   options.magnitudes.support_mm = 1.0;
   options.magnitudes.workpiece_mm = 1.0;
 
-  const ScenarioResult result = try_method({"vision", true, 0.0, 8, 0}, options);
+  const ScenarioResult result = try_method({"vision", true, 0.0, 8, 0, 0}, options);
 
   EXPECT_EQ(result.refused, 0);
   for (const RadiusErrors& radius : result.radii) {
@@ -32,7 +32,7 @@ TEST(BaseScenarios, ABaseIsAllThatACalibrationTakesAway) {
 TEST(BaseScenarios, AStiffRobotFeelsNoPush) {
   ScenarioOptions options = few_robots();
   options.magnitudes = {};
-  const BaseMethod touch{"touch", false, 0.0, 3, 0};
+  const BaseMethod touch{"touch", false, 0.0, 3, 0, 0};
   options.push_n = 0.0;
   EXPECT_LT(try_method(touch, options).radii[5].along_rms_mm, 1e-3);
   options.push_n = 50.0;
@@ -44,7 +44,8 @@ TEST(BaseScenarios, ErrorsGrowWithThoseOfATouch) {
   const ScenarioOptions options = few_robots();
   double before = 0.0;
   for (const double sigma : {0.1, 1.0, 3.0}) {
-    const double here = try_method({"touch", false, sigma, 3, 0}, options).radii[2].across_rms_mm;
+    const double here =
+        try_method({"touch", false, sigma, 3, 0, 0}, options).radii[2].across_rms_mm;
     EXPECT_GT(here, before);
     before = here;
   }
@@ -80,9 +81,18 @@ TEST(BaseScenarios, ErrorsAreAboutThosePromised) {
   }
 }
 
+TEST(BaseScenarios, LinksTakeAwayWhatTheBaseCannot) {
+  const ScenarioOptions options = few_robots();
+  const ScenarioResult base = try_method({"vision", true, 0.05, 8, 0, 0}, options);
+  const ScenarioResult links = try_method({"vision", true, 0.05, 8, 40, 0}, options);
+  for (std::size_t r = 1; r + 1 < base.radii.size(); ++r) {
+    EXPECT_LT(links.radii[r].across_rms_mm, 0.7 * base.radii[r].across_rms_mm) << r;
+  }
+}
+
 TEST(BaseScenarios, ZonesTakeAwayWhatTheBaseCannot) {
   const ScenarioOptions options = few_robots();
-  BaseMethod method{"vision", true, 0.05, 8, 0};
+  BaseMethod method{"vision", true, 0.05, 8, 0, 0};
   const ScenarioResult base = try_method(method, options);
   method.zones = 40;
   const ScenarioResult zones = try_method(method, options);
