@@ -157,6 +157,26 @@ TEST(AravisFrameGrabber, BuffersGoBackAndComeAgain) {
   EXPECT_EQ(bench.counters().underruns, 0);
 }
 
+TEST(AravisFrameGrabber, AnotherCameraAtTheAddressIsNotTakenWhileItRuns) {
+  GigeBench bench;
+  bench.camera().serial = "4711";
+  ASSERT_TRUE(bench.settle());
+  EXPECT_EQ(bench.grabber().doubt(),
+            "calibration is bound to no camera: this one is serial = \"4711\", model = \"Fake "
+            "Model\"");
+  bench.camera().serial = "4712";
+  const auto started = bench.start_anew();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error(), core::Error::kUnsupported);
+  EXPECT_EQ(bench.message(),
+            "camera address:10.0.0.2: has the serial number 4712, expected 4711, the one that this "
+            "box has used so far");
+
+  bench.camera().serial = "4711";
+  ASSERT_TRUE(bench.start_anew());
+  EXPECT_TRUE(bench.good_within(4));
+}
+
 TEST(AravisFrameGrabber, ATimeOutIsNoError) {
   GigeBench bench;
   ASSERT_TRUE(bench.settle());
