@@ -35,11 +35,17 @@ bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool
 }
 
 // Where the picture got darker the photons' share of the noise went with it: its variance is as the
-// grey level. Where it got brighter there is as much as before, at least.
+// grey level. Where it lost contrast (a raised black level, a smaller gain) its noise did, too: as
+// the contrast's variance. Where it got brighter there is as much as before, at least.
 std::int32_t OldPictureWatch::expected_noise() const {
-  const std::int32_t level = std::min(16 * likeness_.grey, grey_q4_);
-  return grey_q4_ > 0 ? static_cast<std::int32_t>(std::int64_t{noise_q4_} * level / grey_q4_ / 16)
-                      : 0;
+  constexpr std::int64_t kFlat = 64;  // a picture of no contrast has what noise it has
+  if (grey_q4_ <= 0) {
+    return 0;
+  }
+  const std::int64_t grey_q4 = std::min(16 * likeness_.grey, grey_q4_);
+  const std::int64_t contrast = std::min(likeness_.contrast, contrast_) + kFlat;
+  return static_cast<std::int32_t>(noise_q4_ * grey_q4 / grey_q4_ * contrast / (contrast_ + kFlat) /
+                                   16);
 }
 
 // A store's own noise is half of what two live pictures differ by, or less. Forty blocks tell their
@@ -89,6 +95,7 @@ void OldPictureWatch::learn_noise() {
   learnt_ = std::min(learnt_ + 1, kMostLearnt);
   noise_q4_ += (noise_q4 - noise_q4_) / std::min(learnt_, noise_q4 < noise_q4_ ? 8 : kMostLearnt);
   grey_q4_ += (16 * likeness_.grey - grey_q4_) / learnt_;
+  contrast_ += (likeness_.contrast - contrast_) / learnt_;
 }
 
 }  // namespace tubesight::core::tracking

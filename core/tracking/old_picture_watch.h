@@ -43,7 +43,8 @@ class OldPictureWatch {
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [memory, source, quiet, likeness, rested, most_equal, learnt, noise, grey] = self;
+    auto& [memory, source, quiet, likeness, rested, most_equal, learnt, noise, grey, contrast] =
+        self;
     stream(memory);
     stream.choice(source, Source::kRepeating);
     stream(quiet, likeness);
@@ -52,6 +53,7 @@ class OldPictureWatch {
     stream.number(learnt, 0, kMostLearnt);
     stream.number(noise, 0, 1 << 28);
     stream.number(grey, 0, 1 << 12);
+    stream.number(contrast, 0, 1 << 24);
   }
 
  private:
@@ -70,6 +72,7 @@ class OldPictureWatch {
   std::int32_t learnt_ = 0;      ///< fields that the two below are learnt from
   std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness
   std::int32_t grey_q4_ = 0;     ///< of the blocks that showed it
+  std::int32_t contrast_ = 0;    ///< of the pictures that showed it
 };
 
 }  // namespace tubesight::core::tracking

@@ -72,10 +72,17 @@ PictureLikeness PictureMemory::look(const FieldView& field, Parity parity, const
   std::array<std::int32_t, kAll> noises{};
   std::int32_t noise = 0;
   std::int32_t grey = 0;
+  std::int32_t sum = 0;  // of all blocks' mean grey, and of its square
+  std::int32_t squares = 0;
   for_each_block(field, window, [&](std::size_t number, const std::uint8_t* pixels) {
     const std::uint8_t* const before = kept.data() + number * kBlock_px;
     const Pair pair = compare(pixels, before);
-    if (pair.darkest < kLeastGrey || pair.brightest >= kMostGrey) {
+    const std::int32_t mean = pair.grey / kBlock_px;
+    sum += mean;
+    squares += mean * mean;
+    // Of one grey in both pictures: a patch put over the picture, and no camera's.
+    const bool blank = pair.darkest == pair.brightest;
+    if (blank || pair.darkest < kLeastGrey || pair.brightest >= kMostGrey) {
       return;
     }
     const bool equal = std::memcmp(pixels, before, kBlock_px) == 0;
@@ -86,6 +93,8 @@ PictureLikeness PictureMemory::look(const FieldView& field, Parity parity, const
     noise += pair.noise;
     grey += pair.grey;
   });
+  constexpr auto kCount = static_cast<std::int32_t>(kAll);
+  likeness.contrast = (kCount * squares - sum * sum) / (kCount * kCount);
   if (likeness.compared > 0) {
     const auto middle = noises.begin() + likeness.compared / 2;
     std::nth_element(noises.begin(), middle, noises.begin() + likeness.compared);

@@ -13,18 +13,19 @@ namespace tubesight::core::tracking {
 /// The noise of a block is that of the difference of both pictures, 56 times its variance: what
 /// changes a block's brightness as a whole (a lamp, interference) is not in it.
 struct PictureLikeness {
-  std::int32_t compared = 0;      ///< blocks looked at that show grey, where noise shows
+  std::int32_t compared = 0;      ///< blocks looked at that show grey in which noise can be
   std::int32_t equal = 0;         ///< of those, the same as before to the last bit
   std::int32_t equal_edges = 0;   ///< of those, equal and with an edge in them
   std::int32_t quiet = 0;         ///< of those, with less than half of the noise expected
   std::int32_t noise = 0;         ///< of all compared, on average
   std::int32_t middle_noise = 0;  ///< of the middle one in their order
   std::int32_t grey = 0;          ///< of all compared, on average
+  std::int32_t contrast = 0;      ///< variance of the blocks' grey, of all in the window
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [blocks, same, same_edges, few, mean, middle, level] = self;
+    auto& [blocks, same, same_edges, few, mean, middle, level, spread] = self;
     constexpr std::int32_t kMost = 1 << 24;
     stream.number(blocks, 0, kMost);
     stream.number(same, 0, kMost);
@@ -33,6 +34,7 @@ struct PictureLikeness {
     stream.number(mean, 0, kMost);
     stream.number(middle, 0, kMost);
     stream.number(level, 0, kMost);
+    stream.number(spread, 0, kMost);
   }
 };
 

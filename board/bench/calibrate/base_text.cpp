@@ -199,7 +199,7 @@ std::string base_settings(const BaseReport& report) {
   std::string verdict;
   drivers::print(verdict, "%d pairs, %d left out; %s", report.base.used, report.base.outliers,
                  std::string(use_of(report.base.verdict)).c_str());
-  return with_quality(toml.take(), {"base_quality", report.base.covariance, verdict});
+  return with_quality(toml.take(), {"base_quality", report.base.covariance, verdict, {}, {}});
 }
 
 }  // namespace tubesight::board

@@ -45,11 +45,12 @@ class NoisyPicture : public testing::Test {
       std::copy_n(from.begin() + line * kWidth, column, pixels_.begin() + line * kWidth);
     }
   }
-  /// Draws stripes of 8 px, `by` px from the left: edges in each line.
-  void draw_stripes(std::int32_t by) {
+  /// Draws stripes, `width` px each, `by` px from the left: edges in each line.
+  void draw_stripes(std::int32_t by, std::int32_t width = 4, std::int32_t dark = 60,
+                    std::int32_t bright = 160) {
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
       const auto column = static_cast<std::int32_t>(i % kWidth);
-      pixels_[i] = (column + by) / 4 % 2 == 0 ? 60 : 160;
+      pixels_[i] = static_cast<std::uint8_t>((column + by) / width % 2 == 0 ? dark : bright);
     }
   }
   [[nodiscard]] FieldView view(Parity parity) const {

@@ -117,6 +117,32 @@ TEST_F(OldPictureWatchOf, BelievesAPictureThatGetsDarkerWithItsNoise) {
   }
 }
 
+TEST_F(OldPictureWatchOf, BelievesAPictureThatLosesContrastAndNoise) {
+  const auto show_striped = [&](std::uint32_t seed, int dark, int bright) {
+    draw_stripes(0, 24, dark, bright);
+    add_noise(seed, seed < 20 ? 1.2 : 0.6);
+    const bool old = show();
+    watch_.believe(true);
+    return old;
+  };
+  for (std::uint32_t seed = 1; seed < 9; ++seed) {
+    EXPECT_FALSE(show_striped(seed, 60, 160));
+  }
+  for (std::uint32_t seed = 20; seed < 60; ++seed) {
+    EXPECT_FALSE(show_striped(seed, 94, 144)) << "black is raised by half: " << seed;
+  }
+}
+
+TEST_F(OldPictureWatchOf, TakesNoPatchWithoutNoiseForAnOldPicture) {
+  rest(1, 8);
+  const std::vector<std::uint8_t> patch(pixels_.size(), 25);
+  for (std::uint32_t seed = 20; seed < 30; ++seed) {
+    draw(seed);
+    keep_left(patch, 200);
+    EXPECT_FALSE(show()) << "a shutter, a title, not what was there before";
+  }
+}
+
 TEST_F(OldPictureWatchOf, CallsNoPictureOldThatHasNoNoise) {
   for (int i = 0; i < 10; ++i) {
     EXPECT_FALSE(look(1)) << "a drawn picture of a tool at rest is always the same";

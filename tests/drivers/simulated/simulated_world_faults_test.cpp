@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -111,75 +110,6 @@ TEST(FaultTorn, KeepsTheOldPictureBelowALine) {
   EXPECT_EQ(fields[6].line(119), sound()[4].line(119));
   EXPECT_NE(sound()[6].line(29), sound()[4].line(29)) << "so that the test can fail";
   EXPECT_EQ(fields[7].pixels, sound()[7].pixels);
-}
-
-TEST(FaultHeld, KeepsTheLeftColumnsToTheLastBit) {
-  Fault held = fault(FaultKind::kHeld);
-  held.share = 0.75;
-  const auto fields = play({held});
-
-  ASSERT_GT(fields.size(), 9U);
-  const auto part = [](const Kept& kept, std::int32_t from, std::int32_t to) {
-    const std::vector<std::uint8_t> line = kept.line(60);
-    return std::vector<std::uint8_t>(line.begin() + from, line.begin() + to);
-  };
-  // 238 of 317 columns; the store has the last picture of each parity.
-  EXPECT_EQ(part(fields[6], 0, 238), part(sound()[4], 0, 238));
-  EXPECT_EQ(part(fields[7], 0, 238), part(sound()[5], 0, 238));
-  EXPECT_EQ(part(fields[9], 0, 238), part(sound()[5], 0, 238)) << "to the end";
-  EXPECT_EQ(part(fields[9], 238, 317), part(sound()[9], 238, 317));
-  EXPECT_NE(part(sound()[9], 0, 238), part(sound()[5], 0, 238)) << "so that the test can fail";
-}
-
-TEST(FaultHeld, AddsTheNoiseOfALineToTheStore) {
-  Fault held = fault(FaultKind::kHeld);
-  held.share = 1.0;
-  held.amplitude = 2.0;
-  const auto fields = play({held});
-
-  ASSERT_GT(fields.size(), 9U);
-  double squares = 0.0;
-  for (std::size_t i = 0; i < fields[8].pixels.size(); ++i) {
-    const int d = int{fields[8].pixels[i]} - int{sound()[4].pixels[i]};
-    squares += d * d;
-  }
-  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(fields[8].pixels.size())), 2.0, 0.3);
-  EXPECT_NE(fields[8].pixels, fields[6].pixels);
-}
-
-TEST(FaultCompressed, SendsSquaresAgainAtRestAndCoarsely) {
-  Fault compressed = fault(FaultKind::kCompressed);
-  compressed.at_s = 0.0;
-  compressed.amplitude = 6.0;
-  const auto fields = play({compressed});
-
-  ASSERT_GT(fields.size(), 9U);
-  std::size_t equal = 0;
-  for (std::size_t i = 0; i < fields[8].pixels.size(); ++i) {
-    equal += fields[8].pixels[i] == fields[6].pixels[i] ? 1U : 0U;
-  }
-  EXPECT_GT(equal, fields[8].pixels.size() / 2);
-  EXPECT_NEAR(fields[8].mean(), sound()[8].mean(), 1.0);
-  EXPECT_NE(fields[0].pixels, sound()[0].pixels);
-}
-
-TEST(FaultJitter, WaversTheStampsAlone) {
-  Fault jitter = fault(FaultKind::kJitter);
-  jitter.at_s = 0.0;
-  jitter.waver_ms = 5.0;
-  const auto fields = play({jitter});
-
-  ASSERT_EQ(fields.size(), sound().size());
-  std::int64_t most_ns = 0;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    EXPECT_EQ(fields[i].pixels, sound()[i].pixels) << i;
-    EXPECT_EQ(fields[i].field.field.sequence, sound()[i].field.field.sequence);
-    const std::int64_t off_ns =
-        (fields[i].field.field.mid_exposure - sound()[i].field.field.mid_exposure).count();
-    EXPECT_LE(std::abs(off_ns), 5'000'000);
-    most_ns = std::max(most_ns, std::abs(off_ns));
-  }
-  EXPECT_GT(most_ns, 2'000'000);
 }
 
 TEST(FaultSwapped, ExposesTheFieldsOfAFrameInTheOtherOrder) {
