@@ -76,11 +76,11 @@ std::optional<edges::CircleShape> shape_at(const TrackingModel<S>& model, std::i
 }
 
 // Whether a pixel lies within nine tenths of a circle's picture.
-bool holds(const edges::RoundRegion& region, std::int32_t u_px, std::int32_t v_px) {
-  const std::int64_t u = (u_px * 65536 - region.center_u_q16) / 256;
-  const std::int64_t v = (v_px * 65536 - region.center_v_q16) / 256;
-  const std::int64_t half_u = region.width_q16 / 512;
-  const std::int64_t half_v = region.height_q16 / 512;
+bool holds(const ClickedTube& tube, std::int32_t u_px, std::int32_t v_px) {
+  const std::int64_t u = (u_px * 65536 - tube.center_u_q16) / 256;
+  const std::int64_t v = (v_px * 65536 - tube.center_v_q16) / 256;
+  const std::int64_t half_u = tube.width_q16 / 512;
+  const std::int64_t half_v = tube.height_q16 / 512;
   // (u / half_u)^2 + (v / half_v)^2 < 0.81, in shares of 1/1024.
   const auto share2 = [](std::int64_t off, std::int64_t half) {
     const std::int64_t share = half > 0 ? off * 1024 / half : 1024;
@@ -96,28 +96,32 @@ ClickedTube find_round(const TrackingModel<S>& model, const FieldView& field, st
   constexpr std::int32_t kAside = 12;  // readings: inside most tube-ends, outside small spots
   constexpr std::array<std::array<std::int32_t, 2>, 9> kPlaces{
       {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
-  const std::int32_t step_px = model.reading_step_px;
-  const auto shape = shape_at<S>(model, u_px, v_px, step_px);
-  if (!shape) {
-    return {};
-  }
+  const std::int32_t aside_px = kAside * model.reading_step_px;
   for (const auto& [right, down] : kPlaces) {
-    const edges::RoundRegion region =
-        edges::find_round_region(field, u_px + right * kAside * step_px,
-                                 v_px + down * kAside * step_px, *shape, reach_px(model) / step_px);
-    if (region.found && holds(region, u_px, v_px)) {
-      return {true,
-              region.center_u_q16,
-              region.center_v_q16,
-              region.width_q16,
-              region.height_q16,
-              (region.inside + region.outside) / 2};
+    const ClickedTube tube =
+        find_circle<S>(model, field, u_px + right * aside_px, v_px + down * aside_px);
+    if (tube.found && holds(tube, u_px, v_px)) {
+      return tube;
     }
   }
   return {};
 }
 
 }  // namespace
+
+template <Scalar S>
+ClickedTube find_circle(const TrackingModel<S>& model, const FieldView& field, std::int32_t u_px,
+                        std::int32_t v_px) {
+  const std::int32_t step_px = model.reading_step_px;
+  const auto shape = shape_at<S>(model, u_px, v_px, step_px);
+  if (!shape) {
+    return {};
+  }
+  const edges::RoundRegion region =
+      edges::find_round_region(field, u_px, v_px, *shape, reach_px(model) / step_px);
+  return {region.found,     region.center_u_q16, region.center_v_q16,
+          region.width_q16, region.height_q16,   (region.inside + region.outside) / 2};
+}
 
 template <Scalar S>
 ClickedTube find_clicked_tube(const TrackingModel<S>& model, const FieldView& field,
@@ -127,9 +131,11 @@ ClickedTube find_clicked_tube(const TrackingModel<S>& model, const FieldView& fi
                                        : bisect<S>(model, field, u_px, v_px, threshold);
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                       \
-  template ClickedTube find_clicked_tube<S>(const TrackingModel<S>&, const FieldView&, \
-                                            std::int32_t, std::int32_t, ClickSearch,   \
+#define TUBESIGHT_INSTANTIATE(S)                                                               \
+  template ClickedTube find_circle<S>(const TrackingModel<S>&, const FieldView&, std::int32_t, \
+                                      std::int32_t);                                           \
+  template ClickedTube find_clicked_tube<S>(const TrackingModel<S>&, const FieldView&,         \
+                                            std::int32_t, std::int32_t, ClickSearch,           \
                                             const edges::DynamicThreshold&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE

@@ -24,8 +24,15 @@ struct ClickedTube {
   std::int32_t midway = 0;
 };
 
+/// The circle of the sheet around a full-frame pixel, which is 80 % of the radius off its centre at
+/// most; see edges::find_round_region().
+template <Scalar S>
+[[nodiscard]] ClickedTube find_circle(const TrackingModel<S>& model, const FieldView& field,
+                                      std::int32_t u_px, std::int32_t v_px);
+
 /// Looks for the dark tube-end around a full-frame pixel, which may be 60 % of the radius off its
-/// centre.
+/// centre. As a circle it is looked for from up to nine places: the click may be under a bright
+/// spot.
 template <Scalar S>
 [[nodiscard]] ClickedTube find_clicked_tube(const TrackingModel<S>& model, const FieldView& field,
                                             std::int32_t u_px, std::int32_t v_px,

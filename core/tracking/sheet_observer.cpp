@@ -6,6 +6,7 @@
 #include "core/base/instantiate.h"
 #include "core/base/overflow.h"
 #include "core/tracking/bright_patch.h"
+#include "core/tracking/circle_shift.h"
 #include "core/tracking/picture_light.h"
 #include "core/tracking/plane_length.h"
 
@@ -97,9 +98,11 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
   std::int32_t range_px = kCloseRange * step_px + to_scaled(times(expected.reach_mm, px_per_mm), 0);
   constexpr std::int32_t kWidestRange = 9;
   if (range_px > kWidestRange * step_px) {
-    if (!shift_onto_dark_regions<S>(*model_, field, candidates_,
-                                    expected.reach_mm + bisected_mm<M>(), record_.light,
-                                    seen.pose)) {
+    const M reach = expected.reach_mm + bisected_mm<M>();
+    // Right after a start a spoilt picture is worth a longer look.
+    if (!shift_onto_dark_regions<S>(*model_, field, candidates_, reach, record_.light, seen.pose) &&
+        (expected.from_motion ||
+         !shift_onto_circles<S>(*model_, field, candidates_, reach, seen.pose))) {
       return no_tubes();
     }
     list_candidates<S>(*model_, *map_, seen.pose, candidates_, &closed_);

@@ -8,7 +8,7 @@ Draws fields in motion of recordings with truth (session.toml, recording.y4m.xz,
 centers.csv), and in each three clicks into tube-ends whose rims are whole: neighbours in every
 other start, up to half a radius off their centres. Spoils the field and those behind it in each of
 the ways below and replays it (`tubesight replay`). Prints how many starts of N a recording were
-refused, and with which words. `bright-plate` puts one click beside the tube-ends, `addresses` gives
+refused, with which words, or lost within three frames. `bright-plate` puts one click beside the tube-ends, `addresses` gives
 one click its neighbour's address: such a start must be refused. A start taken whose tool is not
 named as the truth says is wrong. With --check the exit status is 1 where a limit is broken: two
 refused of thirty, none wrong.
@@ -25,7 +25,7 @@ import subprocess
 import sys
 import tempfile
 
-FRAMES = 2  # of a replay: the start's and one more
+FRAMES = 3  # of a replay: the start's and two more
 MOST_REFUSED = 2 / 30
 WANTED_REFUSED = {"bright-plate": "no-tube-there", "addresses": "addresses"}
 
@@ -184,7 +184,7 @@ def turn(a, b, c):
 
 
 def misnamed(clicks):
-    """One click's address a step off, the way round kept: the settings' check would see the other."""
+    """One click's address a step off, the way round kept, as the settings' check demands."""
     (row, column, u, v), *others = clicks
     for r, c in ((0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (-1, -1), (1, -1), (-1, 1)):
         moved = [(row + r, column + c, u, v), *others]
@@ -194,7 +194,7 @@ def misnamed(clicks):
 
 
 def replay(program, folder, recording, first, clicks, kind, dice):
-    """The word of the refusal, "taken" or "WRONG"; None where the settings refuse such clicks."""
+    """The refusal's word, "lost" after it, "taken" or "WRONG"; None: the settings refuse them."""
     frames = []
     for i in range(FRAMES):
         lines = recording.frame(first // 2 + i)
@@ -228,7 +228,7 @@ def judge(rows, truth):
         if named[0] and named != (true["near_row"], true["near_col"]) and (
                 float(true["offset_mm"]) < 9 or row["aligned"] == "1"):
             return "WRONG"
-    return "taken"
+    return "lost" if any(row["state"] == "lost" for row in rows) else "taken"
 
 
 def study(program, recordings, kinds, starts):
@@ -286,9 +286,10 @@ def self_test():
     assert not list(failures({"bright-plate": count(plate)}))
     plate["taken"] = 1
     assert "bright-plate: 1 taken" in list(failures({"bright-plate": count(plate)}))
-    row = {"tool_row": "4", "tool_column": "7", "aligned": "1"}
+    row = {"tool_row": "4", "tool_column": "7", "aligned": "1", "state": "tracking"}
     true = {"near_row": "4", "near_col": "7", "offset_mm": "0.5"}
     assert judge([row], [true]) == "taken"
+    assert judge([row, {**row, "state": "lost"}], [true, true]) == "lost"
     assert judge([row], [{**true, "near_col": "8"}]) == "WRONG"
     field = Field([bytes([100] * 200)] * 100)
     blots(field, random.Random(1), [])
