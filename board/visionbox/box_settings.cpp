@@ -149,6 +149,18 @@ void refuse_session(SettingsDocument& document) {
   }
 }
 
+/// Of a camera, as far as the settings say: 0 where only the camera knows.
+double exposure_ms(const SourceSettings& source) {
+  if (source.kind == SourceKind::kAravis) {
+    return source.aravis.exposure_ms;
+  }
+  if (source.kind != SourceKind::kV4l2) {
+    return 0.0;
+  }
+  const bool whole_field = source.v4l2.exposure_ms <= 0.0 && source.v4l2.fields_per_s > 0.0;
+  return whole_field ? 1000.0 / source.v4l2.fields_per_s : source.v4l2.exposure_ms;
+}
+
 void read_all(SettingsDocument& document, BoxSettings& box) {
   box.source = {};
   box.control_socket.clear();
@@ -168,7 +180,10 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
   box.lamp_sound = drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    read_lamp(table, {light_of(box.source.kind), box.link.kind != LinkKind::kNone}, box.lamp);
+    read_lamp(
+        table,
+        {light_of(box.source.kind), box.link.kind != LinkKind::kNone, exposure_ms(box.source)},
+        box.lamp);
   });
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);

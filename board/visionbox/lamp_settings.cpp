@@ -1,6 +1,8 @@
 #include "board/visionbox/lamp_settings.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -102,7 +104,33 @@ void read_rules(TableReader& table, bool usual, LampSettings& lamp) {
   table.optional_switch("pattern", lamp.pattern);
 }
 
+/// Above that the pattern is not found in the picture, by lamp_beat_study.
+constexpr double kMostBeat = 0.05;
+
+/// A pattern that nothing could find: better told now than `unknown` for ever.
+void check_beat(TableReader& table, const LampSettings& lamp, double exposure_ms) {
+  const bool pwm = lamp.kind == LampKind::kPwm;
+  const std::int32_t pulses_hz = pwm ? lamp.pwm.frequency_hz : lamp.gpio.frequency_hz;
+  const double beat = beat_of_pulses(pulses_hz, exposure_ms);
+  if (!lamp.pattern || exposure_ms <= 0.0 || beat <= kMostBeat || !table.sound("frequency_hz")) {
+    return;
+  }
+  // One more or less of so many.
+  const auto enough_hz = static_cast<std::int64_t>(std::ceil(1000.0 / kMostBeat / exposure_ms));
+  const bool can = enough_hz <= (pwm ? kPwmFrequency : kGpioFrequency).most;
+  table.complain("frequency_hz",
+                 std::to_string(pulses_hz) + " pulses a second beat with the exposure by " +
+                     std::to_string(std::lround(beat * 100.0)) + " % of the light, expected " +
+                     (can ? std::to_string(enough_hz) + " or more, or " : "") + "pattern = false");
+}
+
 }  // namespace
+
+double beat_of_pulses(double pulses_hz, double exposure_ms) {
+  const double pulses = pulses_hz * exposure_ms / 1000.0;
+  const double left = pulses - std::floor(pulses);
+  return pulses > 0.0 ? 2.0 * std::min(left, 1.0 - left) / pulses : 0.0;
+}
 
 void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lamp) {
   std::size_t kind = 0;
@@ -142,6 +170,7 @@ void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lam
     table.optional_switch("automatic", lamp.automatic);
   } else {
     read_rules(table, lamp.kind == LampKind::kPwm, lamp);
+    check_beat(table, lamp, company.exposure_ms);
   }
   read_care(table, lamp.care);
   read_silent_link(table, company.link, lamp.silent_link);

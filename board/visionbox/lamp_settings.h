@@ -34,8 +34,14 @@ enum class SourceLight : std::uint8_t {
 /// What else a box has that its lamp is asked about.
 struct LampCompany {
   SourceLight light = SourceLight::kRecorded;
-  bool link = false;  ///< there is a robot that may fall silent
+  bool link = false;         ///< there is a robot that may fall silent
+  double exposure_ms = 0.0;  ///< of the camera; 0: nobody says
 };
+
+/// By how much the light of two exposures can differ under pulses that are not in step with them,
+/// as a share of the mean, at half light: of the pulses that do not fit in whole, one exposure may
+/// see all and another none.
+[[nodiscard]] double beat_of_pulses(double pulses_hz, double exposure_ms);
 
 /// Reads the table; mistakes go to the reader's problems.
 void read_lamp(drivers::TableReader& table, const LampCompany& company, LampSettings& lamp);

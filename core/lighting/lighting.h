@@ -20,7 +20,7 @@ namespace tubesight::core::lighting {
 /// The lamp's closed loop: which level is wanted, whether the picture follows it, how the lamp is.
 ///
 /// Integers alone; one thread; no heap, no clock. Without a policy it does and says nothing. Some
-/// 8 KB, and 500 instructions a tube-end.
+/// 10 KB, and 500 instructions a tube-end.
 class Lighting {
  public:
   /// From now on by this policy, from the beginning.

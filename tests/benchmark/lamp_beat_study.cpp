@@ -5,7 +5,8 @@
 // the wave of the pulses has while its shutter is open; the box sets the level and looks for its
 // pattern. Printed are the ripple of that light at the level in force, as the difference of the
 // brightest and the dimmest field and as their deviation, both in % of the mean, and what the box
-// makes of it. Exit status 1 when a field said that the picture is not live, though it is.
+// makes of it. Exit status 1 when a field was vouched
+// for wrongly.
 
 #include <algorithm>
 #include <array>
@@ -57,7 +58,7 @@ Ripple ripple_of(const Pulses& pulses, double duty) {
           std::sqrt(std::max(squares / kFields - mean * mean, 0.0)) / mean * 100.0};
 }
 
-/// Whether the picture was wrongly called not live.
+/// Whether anything wrong was vouched for.
 bool study(const Pulses& pulses, double seconds) {
   const auto bench = std::make_unique<tests::SimulatedBench>();
   bench->scenario.video.window_margin_px = 4;
@@ -89,12 +90,28 @@ bool study(const Pulses& pulses, double seconds) {
               static_cast<double>(faulty) / fields, static_cast<int>(least),
               static_cast<int>(most));
   std::fflush(stdout);
-  return failed > 0 || bench->wrong() > 0;
+  return bench->wrong() > 0;
 }
 
-constexpr std::array<double, 12> kPulses_hz = {100.0,  119.7,  120.0,  977.0,  1000.0,  1019.7,
-                                               1020.0, 2000.0, 2039.7, 2040.0, 10000.0, 50000.0};
-constexpr std::array<double, 3> kExposures_s = {0.001, 0.004, 0.016};
+// Multiples of the fields' rate and others, near them and not; shutters of whole pulses and not.
+constexpr std::array<Pulses, 18> kCases = {{{100.0, 0.001},
+                                            {100.0, 0.004},
+                                            {100.0, 0.0165},
+                                            {120.0, 0.0165},
+                                            {119.7, 0.004},
+                                            {119.7, 0.0165},
+                                            {1000.0, 0.001},
+                                            {1003.0, 0.00125},
+                                            {1003.0, 0.0042},
+                                            {1003.0, 0.0165},
+                                            {1019.7, 0.0165},
+                                            {2000.0, 0.001},
+                                            {2003.0, 0.00125},
+                                            {2003.0, 0.0042},
+                                            {2003.0, 0.0165},
+                                            {10003.0, 0.00125},
+                                            {16003.0, 0.00125},
+                                            {16003.0, 0.0042}}};
 
 }  // namespace
 
@@ -104,10 +121,8 @@ int run(double seconds) {
       "permille "
       "|\n|---|---|---|---|---|---|---|---|\n");
   bool wrong = false;
-  for (const double exposure_s : kExposures_s) {
-    for (const double hz : kPulses_hz) {
-      wrong = study({hz, exposure_s}, seconds) || wrong;
-    }
+  for (const Pulses& pulses : kCases) {
+    wrong = study(pulses, seconds) || wrong;
   }
   return wrong ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -1,5 +1,5 @@
-// How surely the lamp's pattern is found in the picture: `lamp_study [--sound HOURS] [--faults N]`,
-// for docs/lamp.md.
+// How surely the lamp's pattern is found in the picture: `lamp_study [--sound HOURS] [--faults N]
+// [--light N]`, for docs/lamp.md. --light looks at one of the lamps alone, from 0: an eighth.
 //
 // A simulated lamp and camera through the loop of the box, faster than it happens. --sound runs
 // sound lamps of several lags, moving and at rest, with other light and without, and says how far
@@ -129,13 +129,21 @@ double alarms_in_100_hours(std::vector<double> scores, double mean, double power
   return kLooks * 0.01 * std::exp(-(far(-kAlarm) - far(scores[count])) / excess);
 }
 
-int study_sound(double hours) {
+/// One of the lamps, or all.
+bool is_chosen(const Light& light, int chosen) {
+  return chosen < 0 || &light == &kLights.at(static_cast<std::size_t>(chosen));
+}
+
+int study_sound(double hours, int chosen) {
   std::printf(
       "| lag s | ring | speed mm/s | h | first proof s | proved | failed | score mean | "
       "sigma | least | alarms in 100 h: exponential | as a Gaussian |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   int wrong = 0;
   for (const Light& light : kLights) {
+    if (!is_chosen(light, chosen)) {
+      continue;
+    }
     Sound all;
     double slowest_s = 0.0;
     const double seconds = hours * 3600.0 / static_cast<double>(kLights.size());
@@ -187,11 +195,14 @@ constexpr std::array<Case, 5> kCases = {{{"dead, other light", FaultKind::kLampO
                                          {"frozen", FaultKind::kFrozen, 0.0, 0.0},
                                          {"other camera", FaultKind::kOtherCamera, 0.0, 0.0}}};
 
-int study_faults(int count) {
+int study_faults(int count, int chosen) {
   int wrong = 0;
   constexpr double kAt_s = 14.0;
   for (const Case& one : kCases) {
     for (const Light& light : kLights) {
+      if (!is_chosen(light, chosen)) {
+        continue;
+      }
       std::printf("%-18s lag %.2f ring %.1f %s:", one.name, light.lag_s, light.ring,
                   light.moves ? "moving" : "rest  ");
       for (int run = 0; run < count; ++run) {
@@ -244,15 +255,18 @@ int study_faults(int count) {
 int run(int argc, char** argv) {
   double hours = 0.02;
   int faults = 1;
+  int chosen = -1;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::strcmp(argv[i], "--sound") == 0) {
       hours = std::atof(argv[i + 1]);
     } else if (std::strcmp(argv[i], "--faults") == 0) {
       faults = std::atoi(argv[i + 1]);
+    } else if (std::strcmp(argv[i], "--light") == 0) {
+      chosen = std::clamp(std::atoi(argv[i + 1]), 0, static_cast<int>(kLights.size()) - 1);
     }
   }
-  int wrong = hours > 0.0 ? study_sound(hours) : 0;
-  wrong += faults > 0 ? study_faults(faults) : 0;
+  int wrong = hours > 0.0 ? study_sound(hours, chosen) : 0;
+  wrong += faults > 0 ? study_faults(faults, chosen) : 0;
   return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 

@@ -152,6 +152,39 @@ TEST_F(BoxSettingsTest, ALampIsRuledByThePictureAsSet) {
   EXPECT_TRUE(told("lamp.pattern: of a lamp that the box dims, expected it left out"));
 }
 
+// A short shutter, in which the number of pulses is no whole one.
+TEST_F(BoxSettingsTest, PulsesThatBeatWithTheExposureAreTold) {
+  const auto box = [](const std::string& exposure, const std::string& lamp) {
+    std::string text(kCamera);
+    const std::string source = "[source]\n";
+    text.insert(text.find(source) + source.size(), "exposure_ms = " + exposure + "\n");
+    return text + "[lamp]\n" + lamp;
+  };
+  const std::string pwm = "kind = \"pwm\"\nchip = \"fe20c000.pwm\"\nchannel = 1\n";
+  EXPECT_TRUE(load(box("16.7", pwm))) << messages_.front();
+  EXPECT_TRUE(load(box("1.0", pwm))) << "two pulses, whatever the instant";
+  EXPECT_FALSE(load(box("1.25", pwm)));
+  EXPECT_TRUE(
+      told("lamp.frequency_hz: 2000 pulses a second beat with the exposure by 40 % of the "
+           "light, expected 16000 or more, or pattern = false"));
+  EXPECT_TRUE(load(box("1.25", pwm + "frequency_hz = 16000\n"))) << messages_.front();
+  EXPECT_TRUE(load(box("1.25", pwm + "pattern = false\n"))) << messages_.front();
+
+  const std::string gpio = "kind = \"gpio\"\nchip = \"pinctrl\"\nlines = [\"18\"]\n";
+  EXPECT_TRUE(load(box("1.25", gpio))) << "no pattern";
+  EXPECT_FALSE(load(box("1.25", gpio + "pattern = true\n")));
+  EXPECT_TRUE(
+      told("lamp.frequency_hz: 1000 pulses a second beat with the exposure by 40 % of the "
+           "light, expected pattern = false"));
+}
+
+TEST_F(BoxSettingsTest, BeatIsThatOfTheWave) {
+  // As lamp_beat_study draws it at half light: 100 pulses in 4 ms are 0.4 of one, 2 * 0.4 / 0.4.
+  EXPECT_NEAR(beat_of_pulses(100.0, 4.0), 2.0, 1e-9);
+  EXPECT_NEAR(beat_of_pulses(1000.0, 4.0), 0.0, 1e-9);
+  EXPECT_NEAR(beat_of_pulses(119.7, 16.0), 2.0 * (2.0 - 119.7 * 0.016) / (119.7 * 0.016), 1e-9);
+}
+
 TEST_F(BoxSettingsTest, MistakesOfALampAreTold) {
   EXPECT_FALSE(load(std::string(kCamera) +
                     "[lamp]\nkind = \"pwm\"\nlines = [\"1\"]\n"
