@@ -73,7 +73,7 @@ struct SiteSightings {
   List open;    ///< and should be closed
   List closed;  ///< as they should be
   List bright;  ///< and should be open tube-ends
-  List dark;    ///< as they should be, but not measured
+  List dark;    ///< as they should be, but without a rim
 
   void clear() {
     open.clear();

@@ -14,7 +14,7 @@ bool SiteMemory::is_known(Short site) {
   return true;
 }
 
-void SiteMemory::saw_dark(TubeAddress address) {
+void SiteMemory::saw_tube_end(TubeAddress address) {
   const Short site = short_of(address);
   if (!is_known(site) && known_.try_push_back(site)) {
     in_view_ |= std::uint64_t{1} << static_cast<unsigned>(known_.size() - 1);
@@ -41,11 +41,16 @@ void SiteMemory::saw_bright(TubeAddress address, bool clear, TubeAddress tool) {
   }
 }
 
+// Forgets those out of view where the next field might find no room.
 void SiteMemory::end_field() {
-  std::int32_t kept = 0;
-  for (std::int32_t i = 0; i < known_.size(); ++i) {
-    if (((in_view_ >> static_cast<unsigned>(i)) & 1U) != 0) {
-      known_[kept++] = known_[i];
+  constexpr std::int32_t kRoomy = 44;
+  std::int32_t kept = known_.size();
+  if (known_.size() > kRoomy) {
+    kept = 0;
+    for (std::int32_t i = 0; i < known_.size(); ++i) {
+      if (((in_view_ >> static_cast<unsigned>(i)) & 1U) != 0) {
+        known_[kept++] = known_[i];
+      }
     }
   }
   known_.truncate(kept);

@@ -12,16 +12,18 @@ namespace tubesight::core::tracking {
 /// voids and plugs that nobody listed. Under them nothing is vouched for.
 ///
 /// A tube-end may look bright later, behind the guidetube or under a glare: so those in view that
-/// have looked like one are remembered, too, for as long as they stay in view. Holds 64 of these,
-/// as many as are measured in a window, and 32 that were bright alone; of more, those nearest to
+/// have looked like one are remembered, too, for as long as there is room. Holds 64 of these, more
+/// than are measured in a window, and 32 that were bright alone; of more, those nearest to
 /// the tool.
 class SiteMemory {
  public:
   /// A new start.
   void begin() { *this = {}; }
 
-  /// A field that is believed shows the site dark, as a tube-end is.
-  void saw_dark(TubeAddress address);
+  /// A field that is believed shows a tube-end there.
+  void saw_tube_end(TubeAddress address);
+  /// It shows the site dark, and no rim: a plate in poor light, or a plug's hole, looks like that.
+  void saw_dark(TubeAddress address) { static_cast<void>(is_known(short_of(address))); }
   /// It shows it bright. `clear`: nothing can stand before it. `tool`: whereabouts the tool is.
   void saw_bright(TubeAddress address, bool clear, TubeAddress tool);
   /// All sites of the field are told.
@@ -63,7 +65,7 @@ class SiteMemory {
   }
   [[nodiscard]] bool is_known(Short site);
 
-  StaticVector<Short, 64> known_;   ///< in view, and have looked like tube-ends
+  StaticVector<Short, 64> known_;   ///< that have looked like tube-ends
   StaticVector<Short, 32> bright_;  ///< never looked like one
   std::uint64_t in_view_ = 0;       ///< in this field: bit n is known_[n]
 };

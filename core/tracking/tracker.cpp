@@ -181,7 +181,7 @@ template <Scalar S, typename Margin>
 void Tracker<S, Margin>::remember_sites() {
   const FieldRecord<S>& record = observer_.record();
   for (const auto& tube : record.measured) {
-    sites_.saw_dark(tube.address);
+    sites_.saw_tube_end(tube.address);
   }
   for (const TubeAddress address : record.sites.dark) {
     sites_.saw_dark(address);

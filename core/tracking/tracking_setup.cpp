@@ -18,6 +18,16 @@ bool turns_in_range(double speed_deg_s, double acceleration_deg_s2) {
          acceleration_deg_s2 <= 1.0e5;
 }
 
+bool limits_in_range(const MotionSettings& motion) {
+  const auto of_zero_to = [](double value, double most) { return value >= 0.0 && value <= most; };
+  return motion.max_speed_mm_s > 0.0 && motion.max_speed_mm_s <= 2000.0 &&
+         motion.max_acceleration_mm_s2 > 0.0 && motion.max_acceleration_mm_s2 <= 1.0e6 &&
+         of_zero_to(motion.max_height_speed_mm_s, 2000.0) &&
+         of_zero_to(motion.max_height_acceleration_mm_s2, 1.0e6) &&
+         turns_in_range(motion.max_turn_speed_deg_s, motion.max_turn_acceleration_deg_s2) &&
+         turns_in_range(motion.max_lean_speed_deg_s, motion.max_lean_acceleration_deg_s2);
+}
+
 template <Scalar S>
 RateLimits<S> turn_limits(double speed_deg_s, double acceleration_deg_s2) {
   constexpr double kRad = kPi / 180.0;
@@ -43,13 +53,7 @@ Result<void> make_tracking_model(const SessionSettings& settings, TrackingModel<
     }
   }
   const auto& motion = settings.motion;
-  if (!(motion.max_speed_mm_s > 0.0 && motion.max_speed_mm_s <= 2000.0) ||
-      !(motion.max_acceleration_mm_s2 > 0.0 && motion.max_acceleration_mm_s2 <= 1.0e6) ||
-      !(motion.max_height_speed_mm_s >= 0.0 && motion.max_height_speed_mm_s <= 2000.0) ||
-      !(motion.max_height_acceleration_mm_s2 >= 0.0 &&
-        motion.max_height_acceleration_mm_s2 <= 1.0e6) ||
-      !turns_in_range(motion.max_turn_speed_deg_s, motion.max_turn_acceleration_deg_s2) ||
-      !turns_in_range(motion.max_lean_speed_deg_s, motion.max_lean_acceleration_deg_s2)) {
+  if (!limits_in_range(motion)) {
     return Unexpected(Error::kOutOfRange);
   }
   const Transform<frames::Camera, frames::Tool> T_camera_tool(

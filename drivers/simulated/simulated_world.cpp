@@ -64,11 +64,8 @@ Result<void> SimulatedWorld::configure(const Scenario& scenario) {
                                       static_cast<double>(video.rate_denominator) -
                                   1e-6);
   slots_ = fields_a_frame * std::max<std::int64_t>(1, std::llround(frames));
-  slot_ = 0;
-  unnumbered_ = 0;
-  jump_ = {};
-  told_ = {};
-  skip_ = {};
+  slot_ = unnumbered_ = 0;
+  jump_ = told_ = skip_ = {};
   skipped_s_ = 0.0;
   gap_ = false;
   events_taken_ = 0;
@@ -314,9 +311,8 @@ core::FieldTime SimulatedWorld::stamp(const FieldFaults& faults) const {
 
 void SimulatedWorld::follow_slip(SimulatedField& out) {
   if (out.faults.skipped_s > skipped_s_) {
-    const auto steps = steps_of_skip(out);
-    skip_[0] += steps[0];
-    skip_[1] += steps[1];
+    const auto [rows, columns] = steps_of_skip(out);
+    skip_ = {skip_[0] + rows, skip_[1] + columns};
     skipped_s_ = out.faults.skipped_s;
   }
   const std::array<std::int32_t, 2> jump{out.faults.jump[0] + skip_[0],

@@ -27,12 +27,24 @@ TEST(SiteMemory, OneLookAtATubeEndIsEnough) {
   SiteMemory memory;
   memory.saw_bright(kSite, true, kTool);
   memory.end_field();
-  memory.saw_dark(kSite);
+  memory.saw_tube_end(kSite);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite));
   memory.saw_bright(kSite, true, kTool);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite)) << "a glare, or the guidetube, on a tube-end";
+}
+
+TEST(SiteMemory, APlateInPoorLightIsNoTubeEnd) {
+  SiteMemory memory;
+  memory.saw_dark(kSite);
+  memory.end_field();
+  memory.saw_bright(kSite, true, kTool);
+  memory.end_field();
+  EXPECT_FALSE(memory.vouches_for(kSite));
+  memory.saw_dark(kSite);
+  memory.end_field();
+  EXPECT_FALSE(memory.vouches_for(kSite));
 }
 
 TEST(SiteMemory, BehindTheGuidetubeNothingIsLearnt) {
@@ -42,10 +54,17 @@ TEST(SiteMemory, BehindTheGuidetubeNothingIsLearnt) {
   EXPECT_TRUE(memory.vouches_for(kSite));
 }
 
-TEST(SiteMemory, ATubeEndIsForgottenOutOfView) {
+TEST(SiteMemory, TubeEndsOutOfViewAreForgottenWhereRoomIsNeeded) {
   SiteMemory memory;
-  memory.saw_dark(kSite);
+  memory.saw_tube_end(kSite);
   memory.end_field();
+  memory.end_field();
+  memory.saw_bright(kSite, true, kTool);
+  memory.end_field();
+  EXPECT_TRUE(memory.vouches_for(kSite));
+  for (std::int32_t column = 0; column < 50; ++column) {
+    memory.saw_tube_end({1, column});
+  }
   memory.end_field();
   memory.saw_bright(kSite, true, kTool);
   memory.end_field();
@@ -69,7 +88,7 @@ TEST(SiteMemory, KeepsTheBrightSitesNearestToTheTool) {
 TEST(SiteMemory, KnowsAsManyTubeEndsAsAWindowShows) {
   SiteMemory memory;
   for (std::int32_t column = 0; column < 64; ++column) {
-    memory.saw_dark({1, column});
+    memory.saw_tube_end({1, column});
   }
   memory.end_field();
   for (std::int32_t column = 0; column < 64; ++column) {
