@@ -29,11 +29,11 @@ struct LinkHealth {
   Health camera = Health::kUnknown;
   Health lamp = Health::kUnknown;
   bool lamp_dimmed = false;         ///< somebody sets the lamp's level
+  bool lamp_automatic = false;      ///< the level is the box's own, which follows the picture
   std::int32_t lamp_permille = -1;  ///< in force; below 0: not known
   std::int64_t fields = -1;         ///< counters of the box; below 0: not known
   std::int64_t fields_missing = -1;
   std::int64_t fields_late = -1;
-  bool lamp_automatic = false;  ///< the level is the box's own, which follows the picture
 };
 
 /// What has come over the line so far, and how long the box took.

@@ -10,7 +10,7 @@
 namespace tubesight::board::campaign {
 
 /// The name of what is drawn; changes whenever a move of a seed and number would become another.
-inline constexpr const char* kDesign = "design-3";
+inline constexpr const char* kDesign = "design-4";
 
 /// What is drawn beside what every move is drawn of.
 struct DrawOptions {

@@ -137,7 +137,7 @@ TEST(EncodeHealth, SaysWhatIsKnownOfLampAndCamera) {
   EXPECT_EQ(bench.get(kHealthValid), 1 << 2) << "the lamp's pattern alone";
   EXPECT_EQ(bench.get(kCameraHealth), kUnknownWord);
 
-  bench.state.health = {Health::kWell, Health::kFailed, true, 640, 100, 3, 2};
+  bench.state.health = {Health::kWell, Health::kFailed, true, false, 640, 100, 3, 2};
   bench.state.counters.crc_errors = 0x12345678;
 
   EXPECT_EQ(bench.get(kHealthValid), 0b11111);

@@ -31,7 +31,7 @@ Sighting silent(TrackState state, Reason reason) {
   return sighting;
 }
 
-FieldTruth under(TubeAddress tube, double offset_mm) { return {tube, true, offset_mm, {}}; }
+FieldTruth under(TubeAddress tube, double offset_mm) { return {tube, true, true, offset_mm, {}}; }
 
 TEST(MoveJudge, FindsNothingWrongInTheTruth) {
   MoveJudge judge(kLimits);
@@ -67,9 +67,21 @@ TEST(MoveJudge, CountsAWrongTubeVouchedFor) {
 
 TEST(MoveJudge, CountsAVoidVouchedForAsWrong) {
   MoveJudge judge(kLimits);
-  judge.take({kTube, false, 0.5, {}}, says(kTube, true));
+  judge.take({kTube, false, true, 0.5, {}}, says(kTube, true));
   EXPECT_EQ(judge.counts()[Count::kWrongTube], 1);
   EXPECT_EQ(judge.counts()[Count::kTrulyAligned], 0);
+}
+
+TEST(MoveJudge, WantsNoTubeVouchedForThatIsClosedAndUntold) {
+  MoveJudge judge(kLimits);
+  const FieldTruth closed{kTube, true, false, 0.5, {}};
+  judge.take(closed, says(kTube, false));
+  EXPECT_EQ(judge.counts()[Count::kTrulyAligned], 0);
+  EXPECT_EQ(judge.counts()[Count::kMissed], 0);
+  judge.take(closed, says(kTube, true));  // a tube stands there all the same
+  EXPECT_EQ(judge.counts()[Count::kWrongTube], 0);
+  judge.take(closed, says(kNext, true));
+  EXPECT_EQ(judge.counts()[Count::kWrongTube], 1);
 }
 
 TEST(MoveJudge, CountsTheGateWithItsSlack) {
@@ -90,7 +102,7 @@ TEST(MoveJudge, NamesWithoutVouchingAreWrongNearestOnly) {
 }
 
 TEST(MoveJudge, CountsASilentJumpsOwnStepApart) {
-  const FieldTruth jumped{kNext, true, 0.5, {0, 1}};
+  const FieldTruth jumped{kNext, true, true, 0.5, {0, 1}};
   MoveJudge judge(kLimits);
   judge.take(jumped, says(kTube, true));     // what a bare lattice leaves it to believe
   judge.take(jumped, says({11, 20}, true));  // wrong by another step

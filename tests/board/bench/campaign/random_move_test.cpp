@@ -44,7 +44,7 @@ TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
       digest = (digest ^ static_cast<std::uint8_t>(letter)) * 1099511628211ULL;
     }
   }
-  EXPECT_EQ(std::string(kDesign), "design-3");
+  EXPECT_EQ(std::string(kDesign), "design-4");
   EXPECT_EQ(digest, 0x61574f922a08f765ULL);
 }
 
