@@ -19,10 +19,11 @@ template <Scalar S>
 bool rests(const Motion<S>& motion) {
   using M = Mm<S>;
   const M fastest = constant<M>(3.0);
-  const M fastest_turn = constant<M>(0.035);
+  const M fastest_approach = constant<M>(10.0);
+  const M fastest_turn = constant<M>(0.12);
   const auto& turn = motion.turn_rad_s;
   return motion.known && plane_length(motion.velocity_mm_s) < fastest &&
-         absolute(motion.approach_mm_s) < fastest && absolute(turn.x) < fastest_turn &&
+         absolute(motion.approach_mm_s) < fastest_approach && absolute(turn.x) < fastest_turn &&
          absolute(turn.y) < fastest_turn && absolute(turn.z) < fastest_turn;
 }
 

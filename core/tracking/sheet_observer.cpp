@@ -67,6 +67,22 @@ AttitudeDeviation<S> attitude_deviation(const TrackingModel<S>& model, const She
   return known;
 }
 
+// How well the place and the attitude are known.
+template <Scalar S>
+void judge_deviations(const TrackingModel<S>& model, const NormalEquations<S>& equations,
+                      Observation<S>& seen) {
+  using M = Mm<S>;
+  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
+  // of a rim point's fit is known to some 0.125 px then.
+  const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));
+  seen.picture_deviation_mm =
+      times(tool_point_deviation<S>(seen.pose, seen.tool, equations), excess);
+  seen.attitude = attitude_deviation<S>(model, seen.pose, equations, excess);
+  // Independent of each other: sqrt(picture^2 + systematic^2).
+  seen.deviation_mm =
+      plane_length(Vector2<M>{seen.picture_deviation_mm, systematic_deviation_mm<M>()});
+}
+
 }  // namespace
 
 template <Scalar S>
@@ -127,14 +143,7 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
   }
   seen.tool = *tool;
   look_at_sites<S>(*model_, field, seen.pose, closed_, record_.light, record_.sites);
-  // Distances larger than edges of 0.2 px explain make the place as much less certain: the centre
-  // of a rim point's fit is known to some 0.125 px then.
-  const M excess = std::max(M(1), times(convert<M>(seen.fit.rms_px), constant<M>(8.0)));
-  seen.picture_deviation_mm = times(tool_point_deviation<S>(seen.pose, *tool, equations_), excess);
-  seen.attitude = attitude_deviation<S>(*model_, seen.pose, equations_, excess);
-  // Independent of each other: sqrt(picture^2 + systematic^2).
-  seen.deviation_mm =
-      plane_length(Vector2<M>{seen.picture_deviation_mm, systematic_deviation_mm<M>()});
+  judge_deviations<S>(*model_, equations_, seen);
   seen.fitted = true;
   return seen;
 }

@@ -74,7 +74,9 @@ TEST_F(OldPicture, IsRightAtRestWhereTheCameraHasNoNoise) {
 
 TEST_F(OldPicture, TwoFieldsMustAgreeBehindOneThatRefutesThePrediction) {
   start_at_rest(1.5);
-  run_.draw(moved(kOverTube, 9.0, 7.0));  // where no tool can be
+  ToolPlace turned = kOverTube;
+  turned.alpha_deg += 4.0;  // in one field: no tool turns so fast
+  run_.draw(turned);
   run_.step_on_last_picture(kOverTube);
   EXPECT_EQ(run_.sighting().state, TrackState::kDegraded);
   EXPECT_FALSE(run_.sighting().tool_known);
@@ -85,6 +87,14 @@ TEST_F(OldPicture, TwoFieldsMustAgreeBehindOneThatRefutesThePrediction) {
   run_.step(kOverTube);
   EXPECT_EQ(run_.sighting().state, TrackState::kTracking);
   EXPECT_TRUE(run_.sighting().aligned);
+}
+
+TEST_F(OldPicture, IsOneOfAnotherPlaceThatEndsTheTrack) {
+  start_at_rest(1.5);
+  run_.draw(moved(kOverTube, 9.0, 7.0));  // where no tool can be, and where most tube-ends fit
+  run_.step_on_last_picture(kOverTube);
+  EXPECT_EQ(run_.sighting().state, TrackState::kLost);
+  EXPECT_EQ(run_.sighting().reason, Reason::kNoTubes);
 }
 
 }  // namespace

@@ -226,10 +226,14 @@ TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
   EXPECT_FALSE(rests<S>(motion));
   motion.velocity_mm_s = {};
-  motion.approach_mm_s = Mm<S>(-3.1);
+  motion.approach_mm_s = Mm<S>(-5.0);
+  motion.turn_rad_s.x = Mm<S>(0.1);
+  EXPECT_TRUE(rests<S>(motion)) << "what a dozen tube-ends waver by";
+  motion.turn_rad_s.x = {};
+  motion.approach_mm_s = Mm<S>(-10.1);
   EXPECT_FALSE(rests<S>(motion)) << "the picture grows";
   motion.approach_mm_s = {};
-  motion.turn_rad_s.z = Mm<S>(-0.04);
+  motion.turn_rad_s.z = Mm<S>(-0.13);
   EXPECT_FALSE(rests<S>(motion)) << "the picture turns";
 }
 
