@@ -42,6 +42,7 @@ bool LastPlace<S>::refutes(const TrackingModel<S>& model, const tubesheet::Sheet
   }
   // A start may come of either search.
   for (const ClickSearch search : {ClickSearch::kBisected, ClickSearch::kRound}) {
+    static_cast<void>(take_overflow_flag());    // of a search that showed no pose
     LightLevels light = first_light<S>(model);  // a track's is left alone
     SheetPose<S> pose;
     if (!find_start_pose<S>(model, map, field.pixels, clicks, search, light, pose).taken()) {
