@@ -87,8 +87,10 @@ Reason refuses_attitude(const TrackingModel<S>& model, const Observation<S>& see
       times(times(span + interval + interval + interval, span_s), constant<M>(0.5));
   const TurnParts<S> off = parts_of<S>(predicted, seen.pose);
   const M rise_off = absolute(seen.tool.height_mm - predicted_height_mm);
-  // Accelerations are in metres, as their millimetres leave the format; spans below a second.
-  const M rise_grown = times(times(model.height.acceleration, grown), constant<M>(1000.0));
+  // Accelerations are in metres, as their millimetres leave the format; spans below a second. A
+  // metre is beyond any height and still within the format.
+  const M rise_grown_m = std::min(times(model.height.acceleration, grown), M(1));
+  const M rise_grown = times(rise_grown_m, constant<M>(1000.0));
   const bool jumped = off.heading > times(model.turn.acceleration, grown_turn) + heading_slack ||
                       off.lean > times(model.lean.acceleration, grown_turn) + lean_slack ||
                       rise_off > rise_grown + height_slack;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/overflow.h"
 #include "tests/core/tracking/tracking_test_support.h"
 
 namespace tubesight::core::tracking {
@@ -90,6 +91,18 @@ TYPED_TEST(AttitudeGateOf, LetsPassWhatTheSettingsSay) {
   EXPECT_EQ(this->refuses(10.0, 0.0, 0.0, 0.9), Reason::kNone);
   EXPECT_EQ(this->refuses(0.0, 3.0, 0.0), Reason::kNone);
   EXPECT_EQ(this->refuses(0.0, 0.0, 5.0), Reason::kNone);
+}
+
+// The greatest acceleration that a file may have, behind a tenth of a second without a picture.
+TYPED_TEST(AttitudeGateOf, KeepsItsNumbersInRangeWhateverTheSettingsSay) {
+  this->scene_.settings->motion.max_height_acceleration_mm_s2 = 1.0e6;
+  this->make();
+  static_cast<void>(take_overflow_flag());
+  EXPECT_EQ(refuses_attitude<TypeParam>(this->scene_.model, this->last_, this->last_.pose,
+                                        this->last_.tool.height_mm, this->last_, this->motion_,
+                                        Unit<TypeParam>(0.1)),
+            Reason::kNone);
+  EXPECT_FALSE(take_overflow_flag());
 }
 
 TYPED_TEST(AttitudeGateOf, HeightIsLimitedAsThePlaceWhereNothingElseIsSet) {
