@@ -60,7 +60,31 @@ bool fits_other_addresses(const TrackingModel<S>& model, const tubesheet::SheetM
   return false;
 }
 
+template <Scalar S>
+bool fits_an_edge(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                  const FieldRecord<S>& record) {
+  constexpr std::int32_t kLongest = 128;  // steps
+  const std::int32_t here = record.sites.open.size() + record.sites.bright.size();
+  if (here <= kLeastDifference || record.measured.empty()) {
+    return false;
+  }
+  const std::int32_t most = std::min(here - kLeastDifference, here / 4);
+  const TubeAddress anchor = record.measured[0].address;
+  const auto fits = [&](TubeAddress off) {
+    return model.lattice.has({anchor.row + off.row, anchor.column + off.column}) &&
+           contradictions<S>(map, record, off, most) <= most;
+  };
+  for (std::int32_t steps = 1; steps <= kLongest; ++steps) {
+    if (fits({steps, 0}) || fits({-steps, 0}) || fits({0, steps}) || fits({0, -steps})) {
+      return true;
+    }
+  }
+  return false;
+}
+
 #define TUBESIGHT_INSTANTIATE(S)                                                             \
+  template bool fits_an_edge<S>(const TrackingModel<S>&, const tubesheet::SheetMap&,         \
+                                const FieldRecord<S>&);                                      \
   template bool fits_other_addresses<S>(const TrackingModel<S>&, const tubesheet::SheetMap&, \
                                         const FieldRecord<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)

@@ -20,4 +20,11 @@ template <Scalar S>
                                         const tubesheet::SheetMap& map,
                                         const FieldRecord<S>& record);
 
+/// Whether the same is so anywhere along the row or the column, up to 128 steps away: a jump to
+/// the sheet's edge, or to a void as large. For fields with more bright sites than tube-ends; costs
+/// up to a million instructions.
+template <Scalar S>
+[[nodiscard]] bool fits_an_edge(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
+                                const FieldRecord<S>& record);
+
 }  // namespace tubesight::core::tracking

@@ -172,12 +172,12 @@ FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t rang
 }
 
 // Whether what fits is worth more than all that is bright: tube-ends enough to be no chance, and
-// the bright ones one patch that no other addresses explain.
+// the bright ones one patch that no other addresses explain, not those of an edge far away either.
 template <Scalar S>
 bool SheetObserver<S>::outweighs_bright(const PoseFit<S>& fit) const {
   constexpr std::int32_t kMany = 8;
   return fit.solved && fit.used >= kMany && is_one_patch<S>(*model_, record_.sites.bright) &&
-         !fits_other_addresses();
+         !fits_other_addresses() && !fits_an_edge<S>(*model_, *map_, record_);
 }
 
 template <Scalar S>
