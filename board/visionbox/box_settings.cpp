@@ -168,8 +168,11 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.link = {};
   box.record = {};
   box.lamp = {};
-  drivers::read_table(document, "source", true,
-                      [&](TableReader& table) { read_source(document, table, box.source); });
+  SourceLight light = SourceLight::kUnknown;
+  drivers::read_table(document, "source", true, [&](TableReader& table) {
+    read_source(document, table, box.source);
+    light = table.sound("kind") ? light_of(box.source.kind) : light;
+  });
   drivers::read_table(document, "control", false, [&](TableReader& table) {
     read_control(document, table, box.control_socket);
   });
@@ -179,12 +182,13 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_link(table, box.link); });
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
-  box.lamp_sound = drivers::read_table(document, "lamp", false, [&](TableReader& table) {
-    read_lamp(
-        table,
-        {light_of(box.source.kind), box.link.kind != LinkKind::kNone, exposure_ms(box.source)},
-        box.lamp);
+  std::size_t told = 0;
+  drivers::read_table(document, "lamp", false, [&](TableReader& table) {
+    read_lamp(table, {light, box.link.kind != LinkKind::kNone, exposure_ms(box.source)}, box.lamp);
+    told = document.problems().size();
   });
+  // A key that nobody knows may be one of the device, misspelt.
+  box.lamp_sound = box.lamp.device_sound && document.problems().size() == told;
   if (box.source.kind == SourceKind::kSimulated) {
     refuse_session(document);
     return;

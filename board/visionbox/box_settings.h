@@ -50,7 +50,7 @@ struct BoxSettings {
   LinkSettings link;
   RecordSettings record;
   LampSettings lamp;
-  bool lamp_sound = false;  ///< `[lamp]` is there without a mistake, whatever the rest is like
+  bool lamp_sound = false;  ///< which lamp it is, is known: it can be made dark
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it
 
@@ -63,9 +63,9 @@ struct BoxSettings {
 /// Reads the box's settings from `path` and the files that it includes, the session's tables among
 /// them or a scenario beside, and checks them whole; devices are not opened.
 ///
-/// Everything in `box` is replaced; after an error nothing but `lamp_sound`, and the lamp where
-/// that is true, is to be used. Errors: kInvalidArgument, with one message for each mistake in all
-/// the files ("file:line: key: what, expected ...").
+/// Everything in `box` is replaced; after an error nothing but `lamp_sound`, and the lamp's device
+/// where that is true, is to be used. Errors: kInvalidArgument, with one message for each mistake
+/// in all the files ("file:line: key: what, expected ...").
 [[nodiscard]] core::Result<void> load_box_settings(drivers::TextFiles& files,
                                                    const std::string& path, BoxSettings& box,
                                                    drivers::Messages& messages);

@@ -89,6 +89,7 @@ bool CameraSource::open() {
     doubt_ = doubt;
   }
   state_told_ = false;
+  state_looks_ = 0;  // what it was before the opening was told of that one
   span_ns_ = camera_->span().count();
   fields_at_once_ = camera_->fields_at_once();
   delivered_ = false;

@@ -134,7 +134,8 @@ double beat_of_pulses(double pulses_hz, double exposure_ms) {
 
 void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lamp) {
   std::size_t kind = 0;
-  const bool camera = company.light == SourceLight::kCamera;
+  const bool camera =
+      company.light == SourceLight::kCamera || company.light == SourceLight::kUnknown;
   if (!table.word("kind", kKinds, kind) || (kind != 0 && !camera)) {
     if (table.sound("kind")) {
       table.complain("kind", std::string(kKinds[kind]) +
@@ -151,18 +152,20 @@ void read_lamp(TableReader& table, const LampCompany& company, LampSettings& lam
     refuse_keys(table, kPwmKeys, "of another kind of lamp");
     refuse_keys(table, kGpioKeys, "of another kind of lamp");
     refuse_keys(table, kSharedKeys, "of another kind of lamp");
-    if (company.light == SourceLight::kSimulated) {
+    if (company.light == SourceLight::kSimulated || company.light == SourceLight::kUnknown) {
       read_rules(table, false, lamp);
     } else {
       refuse_keys(table, kRuleKeys, "of a lamp that the box dims");
     }
     return;
   }
+  const std::size_t before = table.problems().size();
   if (lamp.kind == LampKind::kPwm) {
     read_pwm(table, lamp.pwm);
   } else {
     read_gpio(table, lamp.gpio);
   }
+  lamp.device_sound = table.problems().size() == before;
   // Steps do not swing by a hundredth; pulses of a thread may beat with the exposure.
   const bool stepped = lamp.kind == LampKind::kGpio && lamp.gpio.bank.lines.size() > 1;
   if (stepped) {

@@ -16,6 +16,7 @@ enum class LampKind : std::uint8_t { kNone, kPwm, kGpio };
 /// The table `[lamp]`.
 struct LampSettings {
   LampKind kind = LampKind::kNone;
+  bool device_sound = false;  ///< kind, pwm and gpio are without a mistake, whatever the rest is
   drivers::PwmSettings pwm;
   drivers::GpioSettings gpio;
   LampCare care;
@@ -29,6 +30,7 @@ enum class SourceLight : std::uint8_t {
   kRecorded,   ///< it was; nobody dims it
   kSimulated,  ///< the simulated lamp, which the box dims
   kCamera,     ///< that of the lamp in `[lamp]`, where there is one
+  kUnknown,  ///< the source's kind is a mistake, which is told: nothing is said of the lamp for it
 };
 
 /// What else a box has that its lamp is asked about.

@@ -34,7 +34,7 @@ void transfer(Self& self, Stream& stream) {
 enum class LampCondition : std::uint8_t {
   kUnknown,  ///< nothing shows it
   kWell,     ///< its light is seen to follow
-  kWeak,     ///< it does all it may, and tube-ends stay too dim
+  kWeak,     ///< its light fell though its level did not, or all it may give is too little
   kDark,     ///< it should shine, and the picture is dark
   kUnseen,   ///< the picture is bright and does not follow the lamp
 };
@@ -49,7 +49,7 @@ enum class LampCondition : std::uint8_t {
   switch (condition) {
     case LampCondition::kUnknown: return {"unknown", ""};
     case LampCondition::kWell: return {"well", "the picture follows it"};
-    case LampCondition::kWeak: return {"weak", "it does all it may, and tube-ends stay dim"};
+    case LampCondition::kWeak: return {"weak", "it gives too little light"};
     case LampCondition::kDark: return {"dark", "it should shine, and the picture is dark"};
     case LampCondition::kUnseen: return {"unseen", "the picture does not follow it"};
   }

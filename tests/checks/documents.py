@@ -5,7 +5,7 @@ Usage: documents.py ROOT | documents.py --self-test
 
 Links of README.md, CONTRIBUTING.md and docs/ lead to files, and to headings where they name one. Folders
 and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
-`drivers/<name>/` for one driver at least.
+`drivers/<name>/` for one driver at least. No document holds the marks of a merge that nobody finished.
 """
 import pathlib
 import re
@@ -18,6 +18,7 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
 PATH = re.compile(r"^(?:\./)?([\w.<>-]+/[\w./<>-]*|[\w-]+\.(?:cpp|h|py|md|cmake|sh|json|txt|toml|1))$")
 FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
+UNMERGED = re.compile(r"^(<{7}|={7}|>{7})( |$)")
 # Made by a build, or a part of C++ or of a command.
 NOT_HERE = ("build/",)
 
@@ -67,6 +68,7 @@ def check(root):
         name = path.relative_to(root).as_posix()
         for number, line in enumerate(lines_of(path), 1):
             found = [link_problem(path, target) for target in LINK.findall(line)]
+            found += ["a merge was left unfinished"] if UNMERGED.match(line) else []
             if path.name == "CONTRIBUTING.md":
                 words = [word for code in CODE.findall(line) for word in code.split()]
                 found += [f"`{word}` does not exist" for word in words
@@ -83,7 +85,7 @@ def self_test():
         "CONTRIBUTING.md": "`core/x/` `y.cpp` `drivers/<name>/` `drivers/<name>/y.cpp` `build/z` `R`\n"
                            "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
                            "`board/<name>/`\n`core/x/y.cpp/`\n",
-        "docs/a.md": "# Yes\n",
+        "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n",
         "core/x/y.cpp": "",
         "drivers/v/y.cpp": "",
         "go.sh": "",
@@ -94,7 +96,8 @@ def self_test():
         found, _ = check(root)
     expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
-                "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`"]
+                "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`",
+                "docs/a.md:2: a merge"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     return report("documents --self-test",

@@ -152,6 +152,30 @@ TEST_F(BoxSettingsTest, ALampIsRuledByThePictureAsSet) {
   EXPECT_TRUE(told("lamp.pattern: of a lamp that the box dims, expected it left out"));
 }
 
+// For a program that is to make the lamp dark whatever else somebody has spoilt.
+TEST_F(BoxSettingsTest, WhichLampItIsIsKnownWhateverElseIsWrong) {
+  const std::string pwm = "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\nchannel = 1\n";
+  ASSERT_TRUE(load(std::string(kCamera) + pwm));
+  EXPECT_TRUE(box_->lamp_sound);
+  for (const char* more : {"soft_ms = -1\n", "full_for_s = 60\n", "pattern = 7\n",
+                           "silent_after_s = 9\nsilent_permille = 0\n"}) {
+    EXPECT_FALSE(load(std::string(kCamera) + pwm + more)) << more;
+    EXPECT_TRUE(box_->lamp_sound) << more;
+  }
+  for (const char* more : {"inverted = 1\n", "invertd = true\n", "frequency_hz = 1\n"}) {
+    EXPECT_FALSE(load(std::string(kCamera) + pwm + more)) << more;
+    EXPECT_FALSE(box_->lamp_sound) << more;
+  }
+  EXPECT_FALSE(load("[source]\nkind = \"v4l3\"\n" + pwm));
+  EXPECT_EQ(box_->lamp.kind, LampKind::kPwm);
+  EXPECT_TRUE(box_->lamp_sound);
+  EXPECT_FALSE(told("lamp.")) << "nothing is wrong with it";
+  EXPECT_FALSE(load(pwm));
+  EXPECT_TRUE(box_->lamp_sound) << "without a source";
+  EXPECT_FALSE(load(std::string(kCamera) + "[lamp]\nkind = \"none\"\nsoft_ms = -1\n"));
+  EXPECT_FALSE(box_->lamp_sound);
+}
+
 // A short shutter, in which the number of pulses is no whole one.
 TEST_F(BoxSettingsTest, PulsesThatBeatWithTheExposureAreTold) {
   const auto box = [](const std::string& exposure, const std::string& lamp) {

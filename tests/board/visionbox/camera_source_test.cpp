@@ -221,6 +221,28 @@ TEST_F(CameraSourceTest, ATroubleThatStaysIsToldOnceAndItsEnd) {
   EXPECT_EQ(told_within("camera: well again"), 1);
 }
 
+// A line says that it was opened: without another one all would seem well.
+TEST_F(CameraSourceTest, ATroubleThatOutlivesAnOpeningIsToldAgain) {
+  const auto told_within = [this](const std::string& line, int times) {
+    for (int i = 0; i < 2000 && told(line) < times; ++i) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return told(line);
+  };
+  camera_.well_ = false;
+  ASSERT_TRUE(source_.start());
+  ASSERT_TRUE(grab());
+  ASSERT_EQ(told_within("camera: no signal", 1), 1);
+  camera_.gone_ = true;
+  ASSERT_FALSE(grab());
+  ASSERT_EQ(told_within("camera: the device is gone", 1), 1);
+  camera_.gone_ = false;
+  ASSERT_TRUE(delivers_again());
+  EXPECT_EQ(told_within("camera: no signal", 2), 2);
+  camera_.well_ = true;
+  EXPECT_EQ(told_within("camera: well again", 1), 1);
+}
+
 TEST_F(CameraSourceTest, WhatTheCalibrationLeavesOpenIsToldOnce) {
   camera_.unbound_ = true;
   ASSERT_TRUE(source_.start());
