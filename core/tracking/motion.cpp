@@ -16,15 +16,21 @@ Unit<S> seconds(FieldTime span) {
 }
 
 template <Scalar S>
-bool rests(const Motion<S>& motion) {
+Rest rest_of(const Motion<S>& motion) {
   using M = Mm<S>;
+  const auto within = [&motion](M approach, M turned) {
+    const auto& turn = motion.turn_rad_s;
+    return absolute(motion.approach_mm_s) < approach && absolute(turn.x) < turned &&
+           absolute(turn.y) < turned && absolute(turn.z) < turned;
+  };
   const M fastest = constant<M>(3.0);
-  const M fastest_approach = constant<M>(10.0);
-  const M fastest_turn = constant<M>(0.12);
-  const auto& turn = motion.turn_rad_s;
-  return motion.known && plane_length(motion.velocity_mm_s) < fastest &&
-         absolute(motion.approach_mm_s) < fastest_approach && absolute(turn.x) < fastest_turn &&
-         absolute(turn.y) < fastest_turn && absolute(turn.z) < fastest_turn;
+  if (!motion.known || plane_length(motion.velocity_mm_s) >= fastest) {
+    return Rest::kNone;
+  }
+  if (within(fastest, constant<M>(0.035))) {
+    return Rest::kStill;
+  }
+  return within(constant<M>(10.0), constant<M>(0.12)) ? Rest::kNearly : Rest::kNone;
 }
 
 template <Scalar S>
@@ -148,7 +154,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
 
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
   template Unit<S> seconds<S>(FieldTime);                                                          \
-  template bool rests<S>(const Motion<S>&);                                                        \
+  template Rest rest_of<S>(const Motion<S>&);                                                      \
   template bool travels<S>(const Motion<S>&);                                                      \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \

@@ -32,11 +32,19 @@ struct Motion {
   }
 };
 
-/// Whether tool and picture stand still as far as a picture tells: under 3 mm/s over the sheet, a
-/// twentieth of a millimetre from field to field; under 10 mm/s in height and 7 degrees a second in
-/// any turn, which few tube-ends tell no better, and which move the picture by half a pixel.
+/// How far tool and picture stand still, as a picture tells.
+enum class Rest : std::uint8_t {
+  kNone,
+  /// Under 3 mm/s over the sheet, and under 10 mm/s in height and 7 degrees a second in any turn,
+  /// which few tube-ends tell no better: the picture moves by half a pixel at most.
+  kNearly,
+  /// Under 3 mm/s in height, too, a twentieth of a millimetre from field to field, and 2 degrees a
+  /// second.
+  kStill,
+};
+
 template <Scalar S>
-[[nodiscard]] bool rests(const Motion<S>& motion);
+[[nodiscard]] Rest rest_of(const Motion<S>& motion);
 
 /// Whether the tool moves so fast, over 30 mm/s, that between two fields of one parity every edge
 /// of the picture does by pixels.

@@ -63,10 +63,13 @@ bool OldPictureWatch::is_quiet() const {
 
 // Three fields at rest in a row: the picture of the same lines before was one of the same place,
 // whichever of its parity it was. What a source is, is settled once; between the two the next field
-// is asked, as a compressor sends a whole picture anew at times.
-void OldPictureWatch::believe(bool at_rest) {
+// is asked, as a compressor sends a whole picture anew at times. What is nearly at rest tells that
+// there is noise, but not how much: the grain of the plate moves by half a pixel, and would be
+// taken for noise that live pictures lack later.
+void OldPictureWatch::believe(Rest rest) {
   constexpr std::int32_t kRested = 3;
-  rested_ = at_rest ? rested_ + 1 : 0;
+  rested_ = rest != Rest::kNone ? rested_ + 1 : 0;
+  still_ = rest == Rest::kStill ? still_ + 1 : 0;
   if (rested_ < kRested || likeness_.compared < kEnough || quiet_) {
     return;
   }
@@ -79,7 +82,9 @@ void OldPictureWatch::believe(bool at_rest) {
   }
   if (source_ == Source::kNoisy && 16 * likeness_.equal <= likeness_.compared) {
     most_equal_ = std::max(most_equal_, likeness_.equal);
-    learn_noise();
+    if (still_ >= kRested) {
+      learn_noise();
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/field.h"
 #include "core/base/image_view.h"
+#include "core/tracking/motion.h"
 #include "core/tracking/picture_memory.h"
 
 namespace tubesight::core::tracking {
@@ -35,20 +36,21 @@ class OldPictureWatch {
   /// picture.
   [[nodiscard]] bool shows_old(const Field& field, const PixelBox& window, bool moves);
 
-  /// The field looked at last was believed; `at_rest`: it shows the tool standing still.
-  void believe(bool at_rest);
+  /// The field looked at last was believed; `rest`: how far it shows the tool standing still.
+  void believe(Rest rest);
 
   [[nodiscard]] Source source() const { return source_; }
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [memory, source, quiet, likeness, rested, most_equal, learnt, noise, grey, contrast] =
-        self;
+    auto& [memory, source, quiet, likeness, rested, still, most_equal, learnt, noise, grey,
+           contrast] = self;
     stream(memory);
     stream.choice(source, Source::kRepeating);
     stream(quiet, likeness);
     stream.number(rested, 0, 1 << 30);
+    stream.number(still, 0, 1 << 30);
     stream.number(most_equal, 0, 1 << 10);
     stream.number(learnt, 0, kMostLearnt);
     stream.number(noise, 0, 1 << 28);
@@ -67,7 +69,8 @@ class OldPictureWatch {
   Source source_ = Source::kUnknown;
   bool quiet_ = false;           ///< the last field had too little noise
   PictureLikeness likeness_{};   ///< of the last field that was looked at
-  std::int32_t rested_ = 0;      ///< believed fields in a row with the tool at rest
+  std::int32_t rested_ = 0;      ///< believed fields in a row with the tool at rest, or nearly
+  std::int32_t still_ = 0;       ///< of those, the last ones that were no less than still
   std::int32_t most_equal_ = 0;  ///< blocks of a noisy picture that were equal by chance
   std::int32_t learnt_ = 0;      ///< fields that the two below are learnt from
   std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness

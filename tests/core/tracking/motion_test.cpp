@@ -218,23 +218,30 @@ TYPED_TEST(MotionOf, CarriesTheVelocitysDeviationOnOverTheSpan) {
 TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
   using S = TypeParam;
   Motion<S> motion;
-  EXPECT_FALSE(rests<S>(motion)) << "an unknown motion is none at rest";
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNone) << "an unknown motion is none at rest";
   motion.known = true;
-  EXPECT_TRUE(rests<S>(motion));
+  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.2)};  // 2.97 mm/s
-  EXPECT_TRUE(rests<S>(motion));
+  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
-  EXPECT_FALSE(rests<S>(motion));
-  motion.velocity_mm_s = {};
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
+}
+
+TYPED_TEST(MotionOf, RestsNearlyWhereAFewTubeEndsTellNoBetter) {
+  using S = TypeParam;
+  Motion<S> motion;
+  motion.known = true;
+  motion.approach_mm_s = Mm<S>(-2.9);
+  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
   motion.approach_mm_s = Mm<S>(-5.0);
-  motion.turn_rad_s.x = Mm<S>(0.1);
-  EXPECT_TRUE(rests<S>(motion)) << "what a dozen tube-ends waver by";
-  motion.turn_rad_s.x = {};
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNearly) << "the picture grows, or wavers";
   motion.approach_mm_s = Mm<S>(-10.1);
-  EXPECT_FALSE(rests<S>(motion)) << "the picture grows";
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
   motion.approach_mm_s = {};
+  motion.turn_rad_s.z = Mm<S>(-0.04);
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNearly) << "it turns, or wavers";
   motion.turn_rad_s.z = Mm<S>(-0.13);
-  EXPECT_FALSE(rests<S>(motion)) << "the picture turns";
+  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
 }
 
 TYPED_TEST(MotionOf, TravelsFromThirtyMillimetresASecondOn) {
