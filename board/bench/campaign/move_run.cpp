@@ -12,11 +12,13 @@ namespace {
 
 using core::rendering::TubeEndKind;
 
-// Whether a site is closed, and nobody told the box: it cannot vouch for a tube there.
+// Whether a site is closed, and nobody told the box: it need not vouch for a tube that it never
+// saw.
 bool closed_untold(const drivers::Scenario& scenario, const core::rendering::NearestTube& nearest) {
   const auto plugged = scenario.told.tubesheet.plugged.view();
-  return nearest.kind == TubeEndKind::kPlugFlush &&
-         std::find(plugged.begin(), plugged.end(), nearest.address) == plugged.end();
+  const bool plug =
+      nearest.kind == TubeEndKind::kPlugFlush || nearest.kind == TubeEndKind::kPlugRolled;
+  return plug && std::find(plugged.begin(), plugged.end(), nearest.address) == plugged.end();
 }
 
 /// FNV-1a over what matters of the answers.
