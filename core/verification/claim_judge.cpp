@@ -73,7 +73,12 @@ std::optional<ClaimReply> ClaimJudge<S>::judge(const Claim& claim, FieldTime at,
     return std::nullopt;
   }
   const Sighting& nearest = recent.nearest(at)->sighting;
-  return judge_by(claim, at, nearest);
+  const ClaimReply reply = judge_by(claim, at, nearest);
+  // Before a start is not yet after it: the nearest field was one without that track.
+  if (reply.verdict != ClaimVerdict::kUnknown && recent.forgot_nearer(at)) {
+    return ClaimReply{claim.tube, ClaimVerdict::kUnknown, ClaimDoubt::kNotKnown, {}, nearest.field};
+  }
+  return reply;
 }
 
 template <Scalar S>

@@ -34,14 +34,21 @@ class RecentFields {
   static constexpr std::int32_t kCapacity = 256;
 
   /// Nothing is known of what was before.
-  void clear() { count_ = 0; }
+  void clear() {
+    if (count_ > 0) {
+      forgot_ = true;
+      forgotten_ = newest_;
+    }
+    count_ = 0;
+  }
 
   /// Takes the place of the oldest when there are kCapacity. Where the time of fields does not go
   /// on, those before are of another clock, and forgotten.
   void push(const RecentField<S>& field) {
     if (field.sighting.status != FieldStatus::kMissing) {
-      if (count_ > 0 && came_ && field.sighting.time <= last_came_) {
-        clear();
+      if (came_ && field.sighting.time <= last_came_) {
+        count_ = 0;
+        forgot_ = false;
       }
       came_ = true;
       last_came_ = field.sighting.time;
@@ -70,6 +77,14 @@ class RecentFields {
     return best;
   }
 
+  /// Whether a field that clear() forgot was nearer to an instant than all that are kept, or as
+  /// near.
+  [[nodiscard]] bool forgot_nearer(FieldTime instant) const {
+    const RecentField<S>* const kept = nearest(instant);
+    return forgot_ && (kept == nullptr ||
+                       distance(forgotten_, instant) <= distance(kept->sighting.time, instant));
+  }
+
   /// The field with this number; null when it is none of those kept.
   [[nodiscard]] const RecentField<S>* find(std::int64_t number) const {
     for (std::int64_t i = count_ - 1; i >= first(); --i) {
@@ -87,9 +102,9 @@ class RecentFields {
   /// The members of the state; see core/base/state_stream.h. Of the ring what is filled.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [fields, count, newest_time, came, last_time] = self;
+    auto& [fields, count, newest_time, came, last_time, forgot, forgotten_time] = self;
     stream.number(count, 0, std::int64_t{1} << 62);
-    stream(newest_time, came, last_time);
+    stream(newest_time, came, last_time, forgot, forgotten_time);
     if constexpr (Stream::kShape) {
       stream(fields[0]);
     } else {
@@ -113,6 +128,8 @@ class RecentFields {
   FieldTime newest_{0};
   bool came_ = false;
   FieldTime last_came_{0};  ///< of the last field that was not missing
+  bool forgot_ = false;
+  FieldTime forgotten_{0};  ///< the latest instant that clear() forgot
 };
 
 }  // namespace tubesight::core::verification

@@ -87,6 +87,23 @@ TEST_F(ClaimJudgeTest, JudgesByTheFieldNearestToTheClaim) {
   EXPECT_EQ(only().field, 4);
 }
 
+// A start at the field of 100 ms: what the claim speaks of was nearer to the one before it.
+TEST_F(ClaimJudgeTest, DoesNotJudgeATimeBeforeAStartByTheFieldBehindIt) {
+  recent_->clear();
+  see();
+  claim(milliseconds(9));
+  EXPECT_EQ(only().verdict, ClaimVerdict::kConfirmed);
+  for (const int before_ms : {10, 11, 19, 21, 45}) {
+    replies_.clear();
+    claim(milliseconds(before_ms));
+    EXPECT_EQ(only().verdict, ClaimVerdict::kUnknown) << before_ms;
+    EXPECT_EQ(only().doubt, ClaimDoubt::kNotKnown) << before_ms;
+  }
+  see();
+  claim(milliseconds(19));
+  EXPECT_EQ(only().verdict, ClaimVerdict::kConfirmed) << "by the start's own field";
+}
+
 TEST_F(ClaimJudgeTest, WaitsForTheNextFieldWhereItMayBeNearer) {
   claim(-milliseconds(3), kTube, 9);
   EXPECT_TRUE(replies_.empty());

@@ -62,6 +62,28 @@ TEST(RecentFields, AreForgottenWhereTheTimeOfFieldsDoesNotGoOn) {
   EXPECT_EQ(recent->find(3'600'000), nullptr);
 }
 
+TEST(RecentFields, KnowWhatTheyForgotUntilTheClockIsAnother) {
+  const auto recent = std::make_unique<Recent>();
+  RecentField<FixedPoint> field;
+  field.sighting.status = FieldStatus::kGood;
+  const auto come = [&](int time_ms) {
+    field.sighting.time = milliseconds(time_ms);
+    recent->push(field);
+  };
+  come(3'600'000);
+  EXPECT_FALSE(recent->forgot_nearer(milliseconds(1))) << "it is kept";
+  recent->clear();
+  EXPECT_TRUE(recent->forgot_nearer(milliseconds(3'600'000)));
+  come(3'600'020);
+  EXPECT_TRUE(recent->forgot_nearer(milliseconds(3'600'010)));
+  EXPECT_FALSE(recent->forgot_nearer(milliseconds(3'600'011)));
+  recent->clear();
+  recent->clear();  // twice before one field
+  EXPECT_TRUE(recent->forgot_nearer(milliseconds(3'600'020)));
+  come(100);
+  EXPECT_FALSE(recent->forgot_nearer(milliseconds(90)));
+}
+
 TEST(RecentFields, TellTheLatestInstantThoughALateFieldIsOlder) {
   const auto recent = std::make_unique<Recent>();
   push(*recent, 1, 100);
