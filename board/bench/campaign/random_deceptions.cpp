@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <string_view>
 #include <vector>
 
 #include "board/bench/campaign/random_parts.h"
+#include "board/bench/campaign/random_stream.h"
 #include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board::campaign {
@@ -14,20 +14,6 @@ using core::rendering::TubeEndKind;
 using drivers::Fault;
 using drivers::FaultKind;
 using drivers::Scenario;
-
-/// Random numbers of a kind: what another kind draws does not change them [FNV-1a].
-RandomSource source_of(std::uint64_t seed, std::int64_t move, std::string_view kind) {
-  std::uint64_t topic = 14695981039346656037ULL;
-  for (const char letter : kind) {
-    topic = (topic ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  }
-  return {seed, move, topic};
-}
-
-double field_s(const Scenario& scenario) {
-  return static_cast<double>(scenario.video.rate_denominator) /
-         (2.0 * static_cast<double>(scenario.video.rate_numerator));
-}
 
 double some_time(RandomSource& random, const Scenario& scenario) {
   return random.between(7.0 * field_s(scenario), scenario.video.length_s * 0.85);
@@ -101,8 +87,8 @@ void draw_deceptions(const Stratum& stratum, std::uint64_t seed, std::int64_t mo
                      const core::rendering::TubeEnds& ends, Scenario& scenario) {
   // In the place of a jump by lattice steps, so that within [motion] stays what keeps to it.
   if (stratum.fault == FaultGroup::kJump && !scenario.faults.empty()) {
-    RandomSource skip = source_of(seed, move, "skip");
-    RandomSource pose_step = source_of(seed, move, "pose-step");
+    RandomSource skip = random_stream(seed, move, "skip");
+    RandomSource pose_step = random_stream(seed, move, "pose-step");
     if (skip.chance(0.4)) {
       scenario.faults.clear();
       draw_skip(skip, scenario);
@@ -111,7 +97,7 @@ void draw_deceptions(const Stratum& stratum, std::uint64_t seed, std::int64_t mo
       draw_pose_step(pose_step, scenario);
     }
   }
-  RandomSource unlisted = source_of(seed, move, "unlisted");
+  RandomSource unlisted = random_stream(seed, move, "unlisted");
   if (unlisted.chance(0.1)) {
     draw_unlisted(unlisted, ends, scenario);
   }

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <string_view>
 
 #include "board/bench/campaign/random_parts.h"
+#include "board/bench/campaign/random_stream.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -9,20 +9,6 @@ namespace {
 using drivers::Fault;
 using drivers::FaultKind;
 using drivers::Scenario;
-
-/// Random numbers of a move that no other topic has: by the name of what they are for. FNV-1a.
-RandomSource random_for(std::uint64_t seed, std::int64_t move, std::string_view name) {
-  std::uint64_t topic = 14695981039346656037ULL;
-  for (const char letter : name) {
-    topic = (topic ^ static_cast<std::uint8_t>(letter)) * 1099511628211ULL;
-  }
-  return {seed, move, topic};
-}
-
-double field_s(const Scenario& scenario) {
-  return static_cast<double>(scenario.video.rate_denominator) /
-         (2.0 * static_cast<double>(scenario.video.rate_numerator));
-}
 
 double first_rest_s(const Scenario& scenario) {
   const bool rests =
@@ -51,9 +37,9 @@ Fault draw_held(RandomSource& random, const Scenario& scenario) {
 
 void draw_source_faults(std::uint64_t seed, std::int64_t move, const Stratum& stratum,
                         Scenario& scenario) {
-  RandomSource held = random_for(seed, move, "held");
-  RandomSource jitter = random_for(seed, move, "jitter");
-  RandomSource compressed = random_for(seed, move, "compressed");
+  RandomSource held = random_stream(seed, move, "held");
+  RandomSource jitter = random_stream(seed, move, "jitter");
+  RandomSource compressed = random_stream(seed, move, "compressed");
   if (stratum.fault == FaultGroup::kStream && held.chance(0.2)) {
     scenario.faults = {draw_held(held, scenario)};
   } else if (stratum.fault == FaultGroup::kStream && jitter.chance(0.2)) {
