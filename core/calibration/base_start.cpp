@@ -9,6 +9,7 @@
 #include "core/base/assert.h"
 #include "core/math/rotation.h"
 #include "core/math/small_matrix.h"
+#include "core/math/split_mix.h"
 
 namespace tubesight::core::calibration {
 namespace {
@@ -65,6 +66,18 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& s) {
          2.0 * w * cross;
 }
 
+/// The turn about z whose sine and cosine are as these; none where both are 0.
+Eigen::Matrix3d turn_about_z(double sine, double cosine) {
+  const double size = std::hypot(sine, cosine);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  if (size > 0.0) {
+    turn(0, 0) = turn(1, 1) = cosine / size;
+    turn(1, 0) = sine / size;
+    turn(0, 1) = -sine / size;
+  }
+  return turn;
+}
+
 /// The best turn about the sheet's z behind a sense of the base's z.
 Eigen::Matrix3d level_rotation(const Eigen::Matrix3d& s, bool up) {
   Eigen::Matrix3d sense = Eigen::Matrix3d::Identity();
@@ -75,14 +88,7 @@ Eigen::Matrix3d level_rotation(const Eigen::Matrix3d& s, bool up) {
   const Eigen::Matrix3d seen = sense * s;
   const double sine = seen(0, 1) - seen(1, 0);
   const double cosine = seen(0, 0) + seen(1, 1);
-  const double size = std::hypot(sine, cosine);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  if (size > 0.0) {
-    turn(0, 0) = turn(1, 1) = cosine / size;
-    turn(1, 0) = sine / size;
-    turn(0, 1) = -sine / size;
-  }
-  return turn * sense;
+  return turn_about_z(sine, cosine) * sense;
 }
 
 double squares_of(const BasePairs& pairs, std::span<const std::int32_t> chosen,
@@ -126,7 +132,7 @@ class Triples {
     } else {
       do {
         for (std::int32_t& index : triple_) {
-          index = static_cast<std::int32_t>(draw() % static_cast<std::uint64_t>(count_));
+          index = static_cast<std::int32_t>(draws_.next() % static_cast<std::uint64_t>(count_));
         }
       } while (triple_[0] == triple_[1] || triple_[1] == triple_[2] || triple_[0] == triple_[2]);
     }
@@ -150,20 +156,12 @@ class Triples {
     }
     return false;
   }
-  // SplitMix64 [Vigna2016].
-  std::uint64_t draw() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
 
   std::int32_t count_;
   bool all_;
   bool started_ = false;
   std::int32_t drawn_ = 0;
-  std::uint64_t state_ = 1;
+  math::SplitMix64 draws_{1};
   std::array<std::int32_t, 3> triple_{};
 };
 
@@ -181,14 +179,7 @@ Eigen::Matrix3d turn_of_tool(const BasePairs& pairs, std::span<const std::int32_
       cosine += left(0, 0) + left(1, 1);
     }
   }
-  const double size = std::hypot(sine, cosine);
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  if (size > 0.0) {
-    turn(0, 0) = turn(1, 1) = cosine / size;
-    turn(1, 0) = sine / size;
-    turn(0, 1) = -sine / size;
-  }
-  return turn;
+  return turn_about_z(sine, cosine);
 }
 
 Eigen::Vector3d place_miss(const BasePair& pair, const BasePose& pose) {

@@ -4,19 +4,19 @@
 
 #include "core/base/static_vector.h"
 #include "core/base/trigonometry.h"
+#include "core/math/split_mix.h"
 
 namespace tubesight::core::kinematics {
 namespace {
 
-// SplitMix64 [Vigna2016].
 class Draw {
  public:
-  explicit Draw(std::uint64_t seed) : state_(seed) {}
+  explicit Draw(std::uint64_t seed) : bits_(seed) {}
 
   double normal(double sigma) {
     double sum = -6.0;
     for (int i = 0; i < 12; ++i) {
-      sum += static_cast<double>(next() >> 11) * 0x1p-53;
+      sum += static_cast<double>(bits_.next() >> 11) * 0x1p-53;
     }
     return sigma * sum;
   }
@@ -32,15 +32,7 @@ class Draw {
   }
 
  private:
-  std::uint64_t next() {
-    state_ += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-  }
-
-  std::uint64_t state_;
+  math::SplitMix64 bits_;
 };
 
 template <typename Frame>
