@@ -22,8 +22,6 @@ class FieldCadence {
     kWavers  ///< beside it
   };
 
-  void begin() { *this = {}; }
-
   /// What the next field's stamp is, `numbers` after the last one.
   [[nodiscard]] Stamp judge(FieldTime stamp, std::int64_t numbers) const;
 

@@ -92,7 +92,7 @@ class SheetObserver {
   /// No tube-ends are seen in this field, or none that may be told.
   void clear_field() { record_.begin_field(); }
 
-  /// Looks where the tube-ends are expected. Some 19,000 instructions a tube-end in view.
+  /// Looks where the tube-ends are expected. Some 20,000 instructions a tube-end in view.
   [[nodiscard]] Observation<S> observe(const FieldView& field, const Expectation<S>& expected);
 
   /// observe() that learns nothing: for a picture that is not believed. A number that leaves its

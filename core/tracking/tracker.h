@@ -56,7 +56,7 @@ class Tracker {
     confirmed_ = confirmed;
   }
 
-  /// Processes one field. Costs some 19,000 instructions a tube-end in view.
+  /// Processes one field. Costs some 20,000 instructions a tube-end in view.
   void step(const Field& field, Sighting& sighting, TubeSightingList& tubes);
 
   /// Ends the track after a step for a reason that the picture alone does not show, and tells of
