@@ -1,5 +1,7 @@
 #include "tests/support/drawn_sheet.h"
 
+#include "tests/support/source_camera.h"
+
 namespace tubesight::tests {
 
 using core::Transform;
@@ -14,17 +16,8 @@ DrawnSheet::DrawnSheet()
       renderer_(std::make_unique<Renderer>()),
       truth_(std::make_unique<Truth>()) {
   core::CameraSettings& camera = scene_->camera;
-  camera.width_px = 635;
-  camera.height_px = 480;
+  camera = source_camera();
   camera.scan = core::Scan::kEvenFirst;
-  camera.focal_length_mm = 5.06;
-  camera.cell_width_mm = 0.0084;
-  camera.cell_height_mm = 0.0098;
-  camera.sensor_columns = 768;
-  camera.frame_columns = 635;
-  camera.horizontal_scale = 1.021;
-  camera.center_px = {324.3, 233.8};
-  camera.distortion_per_mm2 = 0.0092;
   scene_->tool = {{-3.0, 31.6, 112.8}, {0.0, -0.8, 48.0}};
   core::TubesheetSettings& sheet = scene_->sheet;
   sheet.row_step_mm = {0.0, 25.4};

@@ -7,6 +7,7 @@
 
 #include "core/kinematics/cobra_arm.h"
 #include "core/rendering/truth.h"
+#include "tests/support/source_camera.h"
 
 namespace tubesight::tests {
 namespace {
@@ -48,16 +49,7 @@ void click(const core::rendering::Truth& truth,
 
 void make_ordinary_scenario(drivers::Scenario& scenario) {
   core::CameraSettings& camera = scenario.scene.camera;
-  camera.width_px = 635;
-  camera.height_px = 480;
-  camera.focal_length_mm = 5.06;
-  camera.cell_width_mm = 0.0084;
-  camera.cell_height_mm = 0.0098;
-  camera.sensor_columns = 768;
-  camera.frame_columns = 635;
-  camera.horizontal_scale = 1.021;
-  camera.center_px = {324.3, 233.8};
-  camera.distortion_per_mm2 = 0.0092;
+  camera = source_camera();
   scenario.scene.tool = {{-3.074, 31.629, 112.789}, {-0.0639, -0.8174, 47.9947}};
   core::TubesheetSettings& sheet = scenario.scene.sheet;
   sheet.row_step_mm = {0.0, 25.4};

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/replaced_text.h"
+#include "tests/support/settings_list.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/system/program.h"
 
@@ -54,18 +55,6 @@ std::string pairs_text(bool turned = true) {
          pair_row("p3", -850.0, 790.0, -80.0, {-0.1, -0.5, 0.6}, turned) +
          pair_row("p4", 20.0, 60.0, -20.0, {0.1, 0.3, -0.4}, turned) +
          pair_row("p5", 100.0, 950.0, 35.0, {-0.3, -0.1, 0.2}, turned);
-}
-
-std::array<double, 3> list_of(const std::string& settings, const std::string& key) {
-  std::array<double, 3> values{};
-  const std::size_t at = settings.find(key + " = [");
-  EXPECT_NE(at, std::string::npos) << key;
-  if (at != std::string::npos) {
-    EXPECT_EQ(std::sscanf(settings.c_str() + at + key.size() + 4, "%lf, %lf, %lf", &values[0],
-                          &values[1], &values[2]),
-              3);
-  }
-  return values;
 }
 
 ProgramRun run_base(const TemporaryFolder& folder, const std::vector<std::string>& further = {}) {

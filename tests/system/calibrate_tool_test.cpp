@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/replaced_text.h"
+#include "tests/support/settings_list.h"
 #include "tests/system/pose_stills.h"
 
 namespace tubesight::tests {
@@ -60,18 +61,6 @@ std::string clicks_of(const TemporaryFolder& folder, const std::string& name) {
               "," + std::to_string(u) + "," + std::to_string(v);
   }
   return clicks;
-}
-
-std::array<double, 3> list_of(const std::string& settings, const std::string& key) {
-  std::array<double, 3> values{};
-  const std::size_t at = settings.find(key + " = [");
-  EXPECT_NE(at, std::string::npos) << key;
-  if (at != std::string::npos) {
-    EXPECT_EQ(std::sscanf(settings.c_str() + at + key.size() + 4, "%lf, %lf, %lf", &values[0],
-                          &values[1], &values[2]),
-              3);
-  }
-  return values;
 }
 
 TEST(CalibrateTool, FromADockedStillIsRight) {

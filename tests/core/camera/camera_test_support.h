@@ -4,24 +4,11 @@
 
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
+#include "tests/support/source_camera.h"
 
 namespace tubesight::core::camera {
 
-/// The source's camera as conventions state it: 635 by 480, strong barrel distortion.
-[[nodiscard]] inline CameraSettings source_camera() {
-  CameraSettings settings;
-  settings.width_px = 635;
-  settings.height_px = 480;
-  settings.focal_length_mm = 5.06;
-  settings.cell_width_mm = 0.0084;
-  settings.cell_height_mm = 0.0098;
-  settings.sensor_columns = 768;
-  settings.frame_columns = 635;
-  settings.horizontal_scale = 1.021;
-  settings.center_px = {324.3, 233.8};
-  settings.distortion_per_mm2 = 0.0092;
-  return settings;
-}
+using tests::source_camera;
 
 /// A 12-megapixel camera with a similar field of view.
 [[nodiscard]] inline CameraSettings large_camera() {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/source_camera.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -13,17 +15,6 @@ namespace {
 class VisionBudgetTest : public testing::Test {
  protected:
   VisionBudgetTest() : sheet_(std::make_unique<core::TubesheetSettings>()) {
-    core::CameraSettings camera;
-    camera.width_px = 635;
-    camera.height_px = 480;
-    camera.focal_length_mm = 5.06;
-    camera.cell_width_mm = 0.0084;
-    camera.cell_height_mm = 0.0098;
-    camera.sensor_columns = 768;
-    camera.frame_columns = 635;
-    camera.horizontal_scale = 1.021;
-    camera.center_px = {324.3, 233.8};
-    camera.distortion_per_mm2 = 0.0092;
     core::ToolSettings tool;
     tool.position_mm = {-3.074, 31.629, 112.789};
     tool.rotation_deg = {-0.0639, -0.8174, 47.9947};
@@ -32,7 +23,7 @@ class VisionBudgetTest : public testing::Test {
     sheet_->bore_mm = 18.6;
     sheet_->rows = {0, 60};
     sheet_->columns = {0, 60};
-    const auto model = core::pose::make_pose_model(camera, tool, *sheet_);
+    const auto model = core::pose::make_pose_model(tests::source_camera(), tool, *sheet_);
     EXPECT_TRUE(model.has_value());
     model_ = *model;
   }
