@@ -46,6 +46,8 @@ Result<void> CameraDevice::open_all(std::string& message) {
                   std::string("cannot be opened: ") + std::strerror(-descriptor_));
   }
   agreed_ = {};
+  signal_ = Signal::kGood;
+  question_.begin();
   TUBESIGHT_TRY(check(node, message));
   // Nothing is set on a camera that another program uses: its input would be switched under it. No
   // buffers are asked for, which only the stranger is refused.
@@ -57,7 +59,7 @@ Result<void> CameraDevice::open_all(std::string& message) {
                   "is busy: another program takes its pictures, expected it free");
   }
   keep_input();
-  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, agreed_, message));
+  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
   TUBESIGHT_TRY(ring_.open(descriptor_, agreed_.api, agreed_.bytes, message));
   identity_.keep(found_);
@@ -105,23 +107,30 @@ bool CameraDevice::switched() {
          static_cast<std::uint32_t>(index) != agreed_.input;
 }
 
-Signal CameraDevice::signal() {
+/// What the input's state says.
+Signal CameraDevice::signal_of_input() {
   v4l2_input input{};
   input.index = agreed_.input;
-  if (agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0) {
-    if (says_no_signal(input.status)) {
-      return Signal::kNone;
-    }
-    if (says_no_standard(input.status)) {
-      return Signal::kOtherStandard;
-    }
-  }
-  if (agreed_.standard == VideoStandard::kNone) {
+  if (!agreed_.input_status || kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) != 0) {
     return Signal::kGood;
   }
-  const VideoStandard sensed = sense_standard(*kernel_, descriptor_);
-  return sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
-                                                                      : Signal::kOtherStandard;
+  return says_no_signal(input.status)     ? Signal::kNone
+         : says_no_standard(input.status) ? Signal::kOtherStandard
+                                          : Signal::kGood;
+}
+
+Signal CameraDevice::signal() {
+  const Signal before = signal_;
+  signal_ = signal_of_input();
+  // A driver that makes buffers wait for the answer is asked while none is good anyway: until a
+  // signal that was away, or of another standard, is known to be the right one.
+  const bool may_ask = !question_.dear() || before != Signal::kGood;
+  if (signal_ == Signal::kGood && agreed_.standard != VideoStandard::kNone && may_ask) {
+    const VideoStandard sensed = question_.ask(descriptor_);
+    signal_ = sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
+                                                                           : Signal::kOtherStandard;
+  }
+  return signal_;
 }
 
 }  // namespace tubesight::drivers::v4l2

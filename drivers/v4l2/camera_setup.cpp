@@ -63,11 +63,12 @@ bool same_layout(std::uint32_t asked, std::uint32_t got) {
 
 class Setup {
  public:
-  Setup(Kernel& kernel, int descriptor, const V4l2Settings& settings, AgreedFormat& agreed,
-        std::string& message)
+  Setup(Kernel& kernel, int descriptor, const V4l2Settings& settings, StandardQuestion& question,
+        AgreedFormat& agreed, std::string& message)
       : kernel_(kernel),
         descriptor_(descriptor),
         settings_(settings),
+        question_(question),
         agreed_(agreed),
         message_(message) {}
 
@@ -94,6 +95,7 @@ class Setup {
   Kernel& kernel_;
   int descriptor_;
   const V4l2Settings& settings_;
+  StandardQuestion& question_;
   AgreedFormat& agreed_;
   std::string& message_;
   double standard_frames_per_s_ = 0.0;
@@ -166,7 +168,7 @@ Result<void> Setup::compare_signal() {
       break;
     }
   }
-  const VideoStandard signal = sense_standard(kernel_, descriptor_);
+  const VideoStandard signal = question_.ask(descriptor_);
   if (agreed_.standard == VideoStandard::kNone || signal == VideoStandard::kNone ||
       signal == agreed_.standard) {
     return {};
@@ -352,8 +354,8 @@ Result<void> Setup::choose_rate() {
 }  // namespace
 
 Result<void> set_up(Kernel& kernel, int descriptor, const V4l2Settings& settings,
-                    AgreedFormat& agreed, std::string& message) {
-  Setup setup(kernel, descriptor, settings, agreed, message);
+                    StandardQuestion& question, AgreedFormat& agreed, std::string& message) {
+  Setup setup(kernel, descriptor, settings, question, agreed, message);
   TUBESIGHT_TRY(setup.choose_input());
   setup.listen();
   TUBESIGHT_TRY(setup.choose_standard());

@@ -39,8 +39,8 @@ struct AgreedFormat {
 /// Errors: kUnsupported it does not have what is wanted, kIo it refused; `message` says which, what
 /// it offers and what was wanted.
 [[nodiscard]] core::Result<void> set_up(Kernel& kernel, int descriptor,
-                                        const V4l2Settings& settings, AgreedFormat& agreed,
-                                        std::string& message);
+                                        const V4l2Settings& settings, StandardQuestion& question,
+                                        AgreedFormat& agreed, std::string& message);
 
 /// Whether a status of VIDIOC_ENUMINPUT says that no signal comes in.
 [[nodiscard]] bool says_no_signal(std::uint32_t status);

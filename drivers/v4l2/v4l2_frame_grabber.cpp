@@ -36,7 +36,7 @@ constexpr bool device_is_gone(int status) {
 
 V4l2FrameGrabber::V4l2FrameGrabber(const V4l2Settings& settings, const hal::Clock& clock,
                                    v4l2::Kernel& kernel)
-    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel) {}
+    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel, clock) {}
 
 Result<void> V4l2FrameGrabber::start() {
   if (started_) {

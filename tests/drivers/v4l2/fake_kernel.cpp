@@ -127,6 +127,7 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       *static_cast<v4l2_std_id*>(argument) = camera.standard;
       return camera.standard == 0 ? -ENODATA : 0;
     case VIDIOC_QUERYSTD:
+      now_ += camera.sensing;
       *static_cast<v4l2_std_id*>(argument) = camera.sensed;
       return camera.sensed == 0 ? -ENOTTY : 0;
     default: return answer_format(opened, request, argument);
