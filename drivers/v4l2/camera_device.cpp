@@ -61,7 +61,7 @@ Result<void> CameraDevice::open_all(std::string& message) {
   keep_input();
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
-  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_.api, agreed_.bytes, message));
+  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_, settings_.width_px, message));
   identity_.keep(found_);
   return {};
 }

@@ -31,6 +31,7 @@ enum class CameraTrouble : std::uint8_t {
 struct CameraCounters : PictureCounters {
   std::int64_t flagged = 0;         ///< buffers that the driver marked as damaged
   std::int64_t cut_short = 0;       ///< buffers with less than the picture
+  std::int64_t unwritten = 0;       ///< fields with lines that the driver did not write
   std::int64_t without_signal = 0;  ///< buffers while the input said that none came in
   std::int64_t other_standard = 0;  ///< buffers of a signal of another standard
   std::int64_t wrong_stamps = 0;    ///< buffers whose stamp cannot be

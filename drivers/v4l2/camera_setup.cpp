@@ -353,6 +353,17 @@ Result<void> Setup::choose_rate() {
 
 }  // namespace
 
+FieldLines AgreedFormat::lines_of(bool odd, bool above_is_odd) const {
+  if (kind != BufferKind::kPair) {
+    return {0, 1, lines};
+  }
+  if (sequential) {
+    return {odd == above_is_odd ? 0 : lines / 2, 1, lines / 2};
+  }
+  const std::int32_t first = odd ? 1 : 0;
+  return {first, 2, (lines - first + 1) / 2};
+}
+
 Result<void> set_up(Kernel& kernel, int descriptor, const V4l2Settings& settings,
                     StandardQuestion& question, AgreedFormat& agreed, std::string& message) {
   Setup setup(kernel, descriptor, settings, question, agreed, message);

@@ -262,7 +262,7 @@ Result<void> V4l2FrameGrabber::break_off_by(int status) {
 
 core::FieldView V4l2FrameGrabber::view_of(core::Parity parity) {
   const v4l2::AgreedFormat& agreed = device_.agreed();
-  const v4l2::BufferJudge::Place place = judge_.place_of(parity);
+  const v4l2::FieldLines place = judge_.lines_of(parity);
   core::FieldView view;
   view.width_px = settings_.width_px;
   view.lines = place.lines;
@@ -288,7 +288,7 @@ core::FieldView V4l2FrameGrabber::view_of(core::Parity parity) {
 hal::FieldLease V4l2FrameGrabber::lend() {
   core::Field field = next_;
   field.pixels = view_of(field.parity);
-  judge_.look_at_picture(field);
+  judge_.look_at_picture(field, device_.ring().unwritten(held_, judge_.lines_of(field.parity)));
   if (--fields_left_ > 0) {
     next_ = judge_.second_field();
   }

@@ -50,9 +50,12 @@ int serve_control(FakeCamera& camera, bool set, v4l2_control& asked) {
 }
 
 /// A field a buffer, or all lines: as the format says.
-void draw_picture(const v4l2_pix_format& pix, const v4l2_buffer& told,
-                  std::span<std::byte> memory) {
+void draw_picture(const v4l2_pix_format& pix, const v4l2_buffer& told, std::span<std::byte> memory,
+                  std::pair<std::uint32_t, std::uint32_t> unwritten) {
   for (std::uint32_t line = 0; line < pix.height; ++line) {
+    if (line >= unwritten.first && line < unwritten.second) {
+      continue;
+    }
     std::uint32_t v = line;
     if (pix.field == V4L2_FIELD_ALTERNATE) {
       v = 2 * line + (told.field == V4L2_FIELD_BOTTOM ? 1 : 0);

@@ -7,6 +7,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <linux/videodev2.h>
@@ -59,6 +60,8 @@ struct FakeCamera {
   /// What a driver says and a picture shows may be changed here before a buffer is taken; `number`
   /// counts the buffers of all streams from 0.
   std::function<void(std::int64_t number, v4l2_buffer& buffer, std::span<std::byte> memory)> tamper;
+  /// Lines of the next buffers that the driver does not write, from, to; what stood there stays.
+  std::deque<std::pair<std::uint32_t, std::uint32_t>> unwritten;
   /// Results of the next calls of a request, in their order: 0 is done as usual, else -errno.
   std::map<unsigned long, std::deque<int>> results;
   std::deque<int> poll_results;   ///< of the next calls, as poll()'s
@@ -69,7 +72,7 @@ struct FakeCamera {
 
 /// Draws what a camera of this format sees, as `told` says which lines.
 void draw_picture(const v4l2_pix_format& format, const v4l2_buffer& told,
-                  std::span<std::byte> memory);
+                  std::span<std::byte> memory, std::pair<std::uint32_t, std::uint32_t> unwritten);
 
 /// Bytes from one grey value of a format to the next.
 [[nodiscard]] std::uint32_t bytes_a_pixel(std::uint32_t format);

@@ -294,7 +294,13 @@ void FakeKernel::expose(Opened& opened) {
   opened.queue.erase(opened.queue.begin());
   Buffer& buffer = opened.buffers[told.index];
   buffer.told = told;
-  draw_picture(opened.format, told, std::span(buffer.memory).subspan(camera.data_offset));
+  std::pair<std::uint32_t, std::uint32_t> unwritten;
+  if (!camera.unwritten.empty()) {
+    unwritten = camera.unwritten.front();
+    camera.unwritten.pop_front();
+  }
+  draw_picture(opened.format, told, std::span(buffer.memory).subspan(camera.data_offset),
+               unwritten);
   if (camera.tamper) {
     camera.tamper(number, buffer.told, buffer.memory);
   }
