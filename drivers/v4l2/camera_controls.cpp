@@ -24,10 +24,6 @@ constexpr int kMostControls = 512;
 constexpr char lower(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::vector<v4l2_queryctrl> list_controls(Kernel& kernel, int descriptor) {
   std::vector<v4l2_queryctrl> controls;
@@ -103,6 +99,11 @@ Result<void> set_control(Kernel& kernel, int descriptor, const v4l2_queryctrl& c
 }
 
 }  // namespace
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
 
 Result<void> set_controls(Kernel& kernel, int descriptor,
                           const std::vector<ControlSetting>& controls, std::string& message) {

@@ -1,7 +1,9 @@
 #include "drivers/v4l2/camera_device.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include <linux/videodev2.h>
 
@@ -30,16 +32,30 @@ Result<void> CameraDevice::open(std::string& message) {
   return opened;
 }
 
-Result<void> CameraDevice::open_all(std::string& message) {
-  const std::string node = find_camera(*kernel_, settings_.device);
-  if (node.empty()) {
-    std::string there;
-    for (const CameraInfo& camera : list_cameras(*kernel_)) {
-      there += (there.empty() ? "" : ", ") + camera.name();
+/// The node of the camera that settings name, where there is one of that name.
+Result<void> CameraDevice::find(std::string& node, std::string& message) {
+  const std::vector<std::string> found = find_cameras(*kernel_, settings_.device);
+  if (found.size() == 1) {
+    node = found.front();
+    return {};
+  }
+  std::string there;
+  for (const CameraInfo& camera : list_cameras(*kernel_)) {
+    if (found.empty() || std::ranges::find(found, camera.node) != found.end()) {
+      there += (there.empty() ? "" : ", ") + (found.empty() ? camera.name() : camera.place());
     }
+  }
+  if (found.empty()) {
     return refuse(Error::kDisconnected, message,
                   "is not there, expected one of: " + (there.empty() ? "no camera is" : there));
   }
+  return refuse(Error::kUnsupported, message,
+                "is there more than once (" + there + "), expected one: name it by its place");
+}
+
+Result<void> CameraDevice::open_all(std::string& message) {
+  std::string node;
+  TUBESIGHT_TRY(find(node, message));
   descriptor_ = kernel_->open(node);
   if (descriptor_ < 0) {
     return refuse(Error::kIo, message,
@@ -58,8 +74,12 @@ Result<void> CameraDevice::open_all(std::string& message) {
     return refuse(Error::kIo, message,
                   "is busy: another program takes its pictures, expected it free");
   }
+  // Where the driver knows priorities nobody else changes anything while we have it.
+  auto priority = static_cast<std::uint32_t>(V4L2_PRIORITY_RECORD);
+  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_S_PRIORITY, &priority));
   keep_input();
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
+  TUBESIGHT_TRY(picture_.begin(descriptor_, settings_.controls, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
   TUBESIGHT_TRY(ring_.open(descriptor_, agreed_, settings_.width_px, message));
   identity_.keep(found_);

@@ -7,6 +7,7 @@
 #include "drivers/v4l2/buffer_ring.h"
 #include "drivers/v4l2/camera_setup.h"
 #include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/picture_controls.h"
 #include "drivers/v4l2/signal.h"
 #include "drivers/v4l2/v4l2_settings.h"
 #include "drivers/v4l2/video_standard.h"
@@ -23,6 +24,7 @@ class CameraDevice {
         kernel_(&kernel),
         question_(kernel, clock),
         identity_(settings.calibrated),
+        picture_(kernel),
         ring_(kernel) {}
   CameraDevice(const CameraDevice&) = delete;
   CameraDevice& operator=(const CameraDevice&) = delete;
@@ -37,6 +39,9 @@ class CameraDevice {
   /// Whether another program has chosen another input: pictures are another camera's.
   [[nodiscard]] bool switched();
 
+  /// Whether another program has changed a control that moves the picture. May take its time.
+  [[nodiscard]] bool altered() const { return picture_.changed(descriptor_); }
+
   /// What the driver says of the signal that comes in. May take its time.
   [[nodiscard]] Signal signal();
 
@@ -49,6 +54,7 @@ class CameraDevice {
 
  private:
   core::Result<void> open_all(std::string& message);
+  core::Result<void> find(std::string& node, std::string& message);
   void keep_input();
   core::Result<void> check(const std::string& node, std::string& message);
   Signal signal_of_input();
@@ -62,6 +68,7 @@ class CameraDevice {
   int input_ = -1;                 ///< chosen at the first start; -1: none was
   IdentityWatch identity_;
   CameraIdentity found_;  ///< of the device that is open
+  PictureControls picture_;
   BufferRing ring_;
 };
 

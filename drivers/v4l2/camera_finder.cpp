@@ -126,14 +126,15 @@ std::string text_of(const unsigned char* letters, std::size_t length) {
 // Of what keeps a place it says where the camera is plugged in; by-id, which camera it is. Neither
 // says it of two cameras of a maker who gives them no numbers: the place does.
 std::string CameraInfo::name() const {
-  if (!serial.empty()) {
+  if (!serial.empty() && alone) {
     return "serial:" + serial;
   }
+  return by_path.empty() && !by_id.empty() ? by_id : place();
+}
+
+std::string CameraInfo::place() const {
   if (!by_path.empty()) {
     return by_path;
-  }
-  if (!by_id.empty()) {
-    return by_id;
   }
   return bus.empty() ? node : "bus:" + bus;
 }
@@ -174,12 +175,17 @@ std::vector<CameraInfo> list_cameras(Kernel& kernel) {
     list_formats(camera, capture_api_of(can).value_or(CaptureApi::kWhole), info);
     cameras.push_back(info);
   }
+  for (CameraInfo& camera : cameras) {
+    camera.alone = std::ranges::count(cameras, camera.serial, &CameraInfo::serial) == 1;
+  }
   return cameras;
 }
 
-std::string find_camera(Kernel& kernel, const std::string& device) {
+std::vector<std::string> find_cameras(Kernel& kernel, const std::string& device) {
+  std::vector<std::string> found;
   if (device.starts_with('/')) {
-    return kernel.real_path(device);
+    const std::string node = kernel.real_path(device);
+    return node.empty() ? found : std::vector{node};
   }
   const bool by_bus = device.starts_with(kBus);
   const std::string wanted = device.substr(by_bus ? kBus.size() : kSerial.size());
@@ -194,10 +200,10 @@ std::string find_camera(Kernel& kernel, const std::string& device) {
       continue;
     }
     if (!by_bus || text_of(can.bus_info, sizeof can.bus_info) == wanted) {
-      return node;
+      found.push_back(node);
     }
   }
-  return {};
+  return found;
 }
 
 }  // namespace tubesight::drivers::v4l2

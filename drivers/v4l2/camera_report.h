@@ -21,6 +21,7 @@ enum class CameraTrouble : std::uint8_t {
   kStream,         ///< the driver gave up the stream
   kSourceChanged,  ///< the signal's format became another one
   kSwitched,       ///< another program has chosen another input
+  kAltered,        ///< another program has mirrored, turned, shifted or magnified the picture
   kGone,           ///< the device is not there any more
 };
 
@@ -39,7 +40,7 @@ struct CameraCounters : PictureCounters {
   std::int64_t queue_errors = 0;    ///< buffers that the driver did not take back
   std::int64_t dequeue_errors = 0;  ///< refusals to give one
   std::int64_t idle_wakes = 0;      ///< times that one was announced and none was there
-  std::int64_t source_changes = 0;  ///< told by the driver, and inputs switched by others
+  std::int64_t source_changes = 0;  ///< told by the driver, and what others switched or altered
   std::int64_t disconnects = 0;     ///< times that the device went
 };
 

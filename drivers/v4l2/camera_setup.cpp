@@ -154,10 +154,13 @@ Result<void> Setup::choose_standard() {
 /// A change of the source before this is seen by what is asked after it.
 void Setup::listen() {
   // A driver that knows nothing of it never says that the source has changed.
-  v4l2_event_subscription change{};
-  change.type = V4L2_EVENT_SOURCE_CHANGE;
-  change.id = agreed_.input;
-  static_cast<void>(ask(VIDIOC_SUBSCRIBE_EVENT, &change));
+  // Drivers name the input, as they should, or 0 whatever the input.
+  for (const std::uint32_t id : {0U, agreed_.input}) {
+    v4l2_event_subscription change{};
+    change.type = V4L2_EVENT_SOURCE_CHANGE;
+    change.id = id;
+    static_cast<void>(ask(VIDIOC_SUBSCRIBE_EVENT, &change));
+  }
 }
 
 Result<void> Setup::compare_signal() {

@@ -62,7 +62,8 @@ Result<void> V4l2FrameGrabber::start() {
   failed_ = false;
   silence_.begin(now);
   looked_ = now;
-  backlog_ = false;
+  backlog_ = true;  // what is there before it can be is of the stream before
+  altered_ = false;
   idle_in_a_row_ = 0;
   errors_in_a_row_ = 0;
   refused_in_a_row_ = 0;
@@ -87,6 +88,7 @@ void V4l2FrameGrabber::stop() {
 void V4l2FrameGrabber::look_after() {
   if (started_) {
     signal_ = device_.signal();
+    altered_ = altered_ || device_.altered();
   }
 }
 
@@ -206,6 +208,10 @@ Result<void> V4l2FrameGrabber::take_events() {
       ++report_.counters.source_changes;
       return break_off(CameraTrouble::kSourceChanged, Error::kIo);
     }
+    if (event.type == V4L2_EVENT_CTRL && (event.u.ctrl.changes & V4L2_EVENT_CTRL_CH_VALUE) != 0) {
+      ++report_.counters.source_changes;
+      return break_off(CameraTrouble::kAltered, Error::kIo);
+    }
     if (event.pending == 0) {
       break;
     }
@@ -219,9 +225,11 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
   const int status = device_.ring().take(buffer);
   if (status == 0) {
     // Asked after the buffer was filled: one of the input before the change is lost with it.
-    if (device_.switched()) {
+    const bool switched = device_.switched();
+    if (switched || altered_) {
       ++report_.counters.source_changes;
-      return Unexpected(break_off(CameraTrouble::kSwitched, Error::kIo).error());
+      const auto trouble = switched ? CameraTrouble::kSwitched : CameraTrouble::kAltered;
+      return Unexpected(break_off(trouble, Error::kIo).error());
     }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;

@@ -108,6 +108,7 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   std::int32_t refused_in_a_row_ = 0;
 
   std::atomic<v4l2::Signal> signal_{v4l2::Signal::kGood};
+  std::atomic<bool> altered_{false};  ///< since the start
   core::Snapshot<CameraReport> latest_;
 };
 

@@ -25,11 +25,13 @@ struct FakeCamera {
   };
   struct Control {
     std::string name;
+    std::uint32_t id = 0;  ///< 0: its place in the list, from 1
     std::uint32_t type = V4L2_CTRL_TYPE_INTEGER;
     std::int32_t least = 0;
     std::int32_t most = 100;
     std::vector<std::string> entries;
     std::int32_t value = 0;
+    std::int32_t usual = 0;  ///< by default
     bool keeps = true;
   };
 
@@ -77,7 +79,7 @@ void draw_picture(const v4l2_pix_format& format, const v4l2_buffer& told,
 /// Bytes from one grey value of a format to the next.
 [[nodiscard]] std::uint32_t bytes_a_pixel(std::uint32_t format);
 
-/// The answers to a control's requests; 0 or -errno. Controls are numbered from 1.
+/// The answers to a control's requests; 0 or -errno.
 int query_control(const FakeCamera& camera, v4l2_queryctrl& query);
 int query_menu(const FakeCamera& camera, v4l2_querymenu& menu);
 int serve_control(FakeCamera& camera, bool set, v4l2_control& asked);

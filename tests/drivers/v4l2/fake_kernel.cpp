@@ -35,12 +35,29 @@ int FakeKernel::calls(unsigned long request) const {
   return at == calls_.end() ? 0 : at->second;
 }
 
-void FakeKernel::change_source(FakeCamera& camera) {
+void FakeKernel::change_source(FakeCamera& camera, std::uint32_t id) {
+  v4l2_event change{};
+  change.type = V4L2_EVENT_SOURCE_CHANGE;
+  change.id = id;
+  tell(camera, change);
+}
+
+void FakeKernel::change_control(FakeCamera& camera, std::uint32_t id, std::int32_t value) {
+  v4l2_control set{id, value};
+  static_cast<void>(serve_control(camera, true, set));
+  v4l2_event change{};
+  change.type = V4L2_EVENT_CTRL;
+  change.id = id;
+  change.u.ctrl.changes = V4L2_EVENT_CTRL_CH_VALUE;
+  tell(camera, change);
+}
+
+void FakeKernel::tell(FakeCamera& camera, const v4l2_event& event) {
+  const std::pair<std::uint32_t, std::uint32_t> what{event.type, event.id};
   for (const auto& [descriptor, opened] : opened_) {
-    if (opened.subscribed && opened.camera.get() == &camera) {
-      v4l2_event change{};
-      change.type = V4L2_EVENT_SOURCE_CHANGE;
-      camera.events.push_back(change);
+    const bool told = std::ranges::find(opened.subscribed, what) != opened.subscribed.end();
+    if (told && opened.camera.get() == &camera) {
+      camera.events.push_back(event);
     }
   }
 }
@@ -80,6 +97,11 @@ int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {
     if (result != 0) {
       return result;
     }
+  }
+  const bool changes =
+      request == VIDIOC_S_INPUT || request == VIDIOC_S_STD || request == VIDIOC_S_CTRL;
+  if (changes && others_go_first(opened)) {
+    return -EBUSY;
   }
   if (!of_this_camera(*opened.camera, request, argument)) {
     return -EINVAL;
@@ -168,7 +190,12 @@ int FakeKernel::answer_format(Opened& opened, unsigned long request, void* argum
 int FakeKernel::answer_stream(Opened& opened, unsigned long request, void* argument) {
   FakeCamera& camera = *opened.camera;
   switch (request) {
-    case VIDIOC_SUBSCRIBE_EVENT: opened.subscribed = true; return 0;
+    case VIDIOC_SUBSCRIBE_EVENT: {
+      const auto& wanted = *static_cast<v4l2_event_subscription*>(argument);
+      opened.subscribed.emplace_back(wanted.type, wanted.id);
+      return 0;
+    }
+    case VIDIOC_S_PRIORITY: opened.priority = *static_cast<std::uint32_t*>(argument); return 0;
     case VIDIOC_DQEVENT: {
       if (camera.events.empty()) {
         return -ENOENT;
@@ -221,6 +248,13 @@ int FakeKernel::set_format(Opened& opened, v4l2_format& format) const {
   pix.sizeimage = pix.bytesperline * pix.height;
   opened.format = pix;
   return 0;
+}
+
+/// What changes the camera is refused while another one that has it open has a higher priority.
+bool FakeKernel::others_go_first(const Opened& opened) const {
+  return std::any_of(opened_.begin(), opened_.end(), [&](const auto& entry) {
+    return entry.second.camera == opened.camera && entry.second.priority > opened.priority;
+  });
 }
 
 /// Whoever has a camera's buffers has the camera.
@@ -341,49 +375,6 @@ int FakeKernel::poll(int descriptor, short events, int timeout_ms) {
     return 0;
   }
   return POLLIN;
-}
-
-std::vector<std::string> FakeKernel::list(const std::string& folder) {
-  std::vector<std::string> names;
-  if (folder == "/sys/class/video4linux") {
-    for (const auto& [number, camera] : cameras_) {
-      names.push_back("video" + std::to_string(number));
-    }
-  }
-  for (const auto& [from, to] : links_) {
-    if (from.starts_with(folder + "/")) {
-      names.push_back(from.substr(folder.size() + 1));
-    }
-  }
-  return names;
-}
-
-std::string FakeKernel::real_path(const std::string& path) {
-  const std::string sysfs = "/sys/class/video4linux/";
-  if (path.starts_with(sysfs)) {
-    return "/sys/devices/" + path.substr(sysfs.size());
-  }
-  const auto link = links_.find(path);
-  const std::string real = link == links_.end() ? path : link->second;
-  const std::string node = "/dev/video";
-  if (!real.starts_with(node) || !cameras_.contains(std::stoi(real.substr(node.size())))) {
-    return {};
-  }
-  return real;
-}
-
-std::string FakeKernel::first_line(const std::string& path) {
-  // As on USB: the serial number stands one level above the interface, and that of a hub above.
-  if (path == "/sys/devices/serial") {
-    return "of the hub";
-  }
-  const std::string begin = "/sys/devices/video";
-  if (!path.starts_with(begin) || !path.ends_with("/serial") ||
-      path.find("/device/") != std::string::npos) {
-    return {};
-  }
-  const auto at = cameras_.find(std::stoi(path.substr(begin.size())));
-  return at == cameras_.end() ? std::string() : at->second->serial;
 }
 
 }  // namespace tubesight::tests

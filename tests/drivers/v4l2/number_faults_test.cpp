@@ -127,6 +127,17 @@ TEST_F(NumbersAndStamps, WithoutStampsWhatLayThereIsDamaged) {
   EXPECT_TRUE(bench_.good_within(1));
 }
 
+// One that is there as soon as the stream begins is of the stream before.
+TEST_F(NumbersAndStamps, WithoutStampsAFirstPictureThatIsThereAtOnceIsDamaged) {
+  bench_.grabber().stop();
+  bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  bench_.camera().every = core::FieldTime{1};  // the fake's way to have one at once
+  ASSERT_TRUE(bench_.grabber().start());
+
+  EXPECT_EQ(bench_.next_status(), FieldStatus::kDamaged);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
+}
+
 TEST_F(NumbersAndStamps, WithoutStampsAPictureThatHadToBeWaitedForIsNew) {
   bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
   ASSERT_TRUE(bench_.good_within(1));

@@ -206,6 +206,21 @@ TEST(SourceChange, WithinAnOpeningIsNeverMissed) {
   }
 }
 
+// Drivers tell it with the number of the input, or with 0 whatever the input.
+TEST(SourceChange, IsHeardWithWhateverNumberItIsTold) {
+  for (const std::uint32_t id : {0U, 1U}) {
+    auto settings = settings_of();
+    settings.input = "Composite 1";
+    CameraBench bench(settings);
+    bench.camera().inputs.push_back({"Composite 1", 0});
+    ASSERT_TRUE(bench.grabber().start()) << bench.message();
+    bench.kernel().change_source(bench.camera(), id);
+
+    EXPECT_EQ(bench.grab().error(), Error::kIo) << id;
+    EXPECT_EQ(bench.report().trouble, CameraTrouble::kSourceChanged);
+  }
+}
+
 // What our own choice of a standard brings about would open the camera anew without end.
 TEST(SourceChange, ByOurOwnChoiceOfAStandardIsNone) {
   auto settings = settings_of();
