@@ -265,6 +265,23 @@ TEST_F(CameraFaults, AnotherCameraAtTheSamePlaceIsNotTaken) {
   expect_recovery();
 }
 
+// Its calibration holds for one size; pictures of another are not stretched to it.
+TEST_F(CameraFaults, ACameraThatComesBackWithAnotherSizeIsNotTaken) {
+  bench_.kernel().unplug(0);
+  expect_error(Error::kDisconnected);
+  bench_.camera().widths_of = 80;
+  bench_.kernel().plug(0, bench_.shared_camera());
+
+  const auto started = bench_.start_anew();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error(), Error::kUnsupported);
+  EXPECT_NE(bench_.message().find("offers GREY 80 x 48 progressive, expected"), std::string::npos)
+      << bench_.message();
+
+  bench_.camera().widths_of = 1;
+  expect_recovery();
+}
+
 TEST_F(CameraFaults, ADeviceThatGoesInTheMiddleOfACallIsGone) {
   bench_.camera().results[VIDIOC_DQBUF] = {-ENODEV};
 
