@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <vector>
 
 #include <linux/videodev2.h>
@@ -58,8 +57,7 @@ Result<void> CameraDevice::open_all(std::string& message) {
   TUBESIGHT_TRY(find(node, message));
   descriptor_ = kernel_->open(node);
   if (descriptor_ < 0) {
-    return refuse(Error::kIo, message,
-                  std::string("cannot be opened: ") + std::strerror(-descriptor_));
+    return refuse(Error::kIo, message, "cannot be opened: " + words_of_refusal(descriptor_));
   }
   agreed_ = {};
   signal_ = Signal::kGood;

@@ -18,10 +18,14 @@ struct CameraInfo {
   std::string serial;
   std::string card;  ///< what the driver calls it
   std::string driver;
-  bool busy = false;  ///< it could not be opened: nothing but its name is known
-  bool alone = true;  ///< no other one has its serial number
+  std::string refused;  ///< why it could not be opened: nothing but its name is known
+  bool taken = false;   ///< another program takes its pictures
+  bool alone = true;    ///< no other one has its serial number
   std::vector<std::string> inputs;
-  std::vector<std::string> formats;  ///< "GREY 640 x 480"; those of the input chosen
+  std::string standard;                ///< "NTSC": the one that is set
+  std::vector<std::string> standards;  ///< that its inputs know
+  std::vector<std::string> formats;    ///< "GREY 640 x 480"; those of the input chosen
+  std::vector<std::string> controls;   ///< by their names
 
   /// How settings should name it.
   [[nodiscard]] std::string name() const;
@@ -39,6 +43,9 @@ struct CameraInfo {
 
 /// The serial number of the device behind a node; empty when it has none.
 [[nodiscard]] std::string serial_of(Kernel& kernel, const std::string& node);
+
+/// Why a node could not be opened, by open()'s -errno, for a person.
+[[nodiscard]] std::string words_of_refusal(int status);
 
 /// What a driver says in a field of fixed length, printable ASCII alone.
 [[nodiscard]] std::string text_of(const unsigned char* letters, std::size_t length);

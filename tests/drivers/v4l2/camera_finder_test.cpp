@@ -1,5 +1,7 @@
 #include "drivers/v4l2/camera_finder.h"
 
+#include <cerrno>
+
 #include <gtest/gtest.h>
 
 #include "tests/drivers/v4l2/camera_bench.h"
@@ -13,6 +15,10 @@ TEST(CameraFinder, ListsWhatSettingsCanName) {
   FakeKernel kernel;
   auto grabber = std::make_shared<FakeCamera>();
   grabber->formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_GREY};
+  grabber->inputs = {{"S-Video", 0, V4L2_STD_ALL}};
+  grabber->standard = V4L2_STD_PAL;
+  grabber->controls.resize(1);
+  grabber->controls[0].name = "Gain";
   auto other = std::make_shared<FakeCamera>();
   other->serial = "12";
   auto no_camera = std::make_shared<FakeCamera>();
@@ -28,9 +34,54 @@ TEST(CameraFinder, ListsWhatSettingsCanName) {
   EXPECT_EQ(cameras[0].name(), "/dev/v4l/by-path/pci-0");
   EXPECT_EQ(cameras[0].formats, (std::vector<std::string>{"MJPG (not taken)", "GREY"}));
   EXPECT_EQ(cameras[0].inputs, (std::vector<std::string>{"S-Video"}));
+  EXPECT_EQ(cameras[0].standards, (std::vector<std::string>{"NTSC", "PAL"}));
+  EXPECT_EQ(cameras[0].standard, "PAL");
+  EXPECT_EQ(cameras[0].controls, std::vector<std::string>{"Gain"});
+  EXPECT_EQ(cameras[1].standard, "");
   EXPECT_EQ(cameras[0].card, "Grabber");
   EXPECT_EQ(cameras[1].name(), "serial:12");
   EXPECT_EQ(kernel.open_devices(), 0);
+}
+
+TEST(CameraFinder, ACameraThatABoxHasIsListedAsTaken) {
+  CameraBench bench;
+  EXPECT_FALSE(drivers::v4l2::list_cameras(bench.kernel())[0].taken);
+  ASSERT_TRUE(bench.grabber().start());
+
+  EXPECT_TRUE(drivers::v4l2::list_cameras(bench.kernel())[0].taken);
+  EXPECT_TRUE(bench.good_within(1)) << "nothing was changed";
+}
+
+// Below by-id two of a model without numbers have one name, and it leads to either.
+TEST(CameraFinder, ANameByIdOfTwoCamerasNamesNeither) {
+  V4l2Settings settings = settings_of();
+  settings.device = "/dev/v4l/by-id/usb-Grabber-video-index0";
+  CameraBench bench(settings);
+  bench.kernel().link(settings.device, "/dev/video0");
+  const auto other = bench.kernel().plug(1, std::make_shared<FakeCamera>());
+  other->bus = "usb-2";
+
+  ASSERT_FALSE(bench.grabber().start());
+  EXPECT_EQ(bench.message(), "camera " + settings.device + ": is there more than once (" + kByPath +
+                                 ", bus:usb-2), expected one: name it by its place");
+
+  other->card = "Another";
+  EXPECT_TRUE(bench.grabber().start()) << bench.message();
+}
+
+TEST(CameraFinder, ACameraOfAnotherUserSaysWhoMayHaveIt) {
+  CameraBench bench;
+  bench.camera().opening = -EACCES;
+  ASSERT_FALSE(bench.grabber().start());
+  EXPECT_EQ(bench.message(), std::string("camera ") + kByPath +
+                                 ": cannot be opened: Permission denied, expected a user of the "
+                                 "group video");
+  const auto listed = drivers::v4l2::list_cameras(bench.kernel());
+  ASSERT_EQ(listed.size(), 1U);
+  EXPECT_EQ(listed[0].refused, "Permission denied, expected a user of the group video");
+
+  bench.camera().opening = 0;
+  EXPECT_TRUE(bench.grabber().start());
 }
 
 TEST(CameraFinder, FindsADeviceByWhatStays) {

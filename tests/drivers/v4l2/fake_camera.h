@@ -22,6 +22,7 @@ struct FakeCamera {
   struct Input {
     std::string name;
     std::uint32_t status = 0;
+    v4l2_std_id standards = 0;  ///< that it knows
   };
   struct Control {
     std::string name;
@@ -36,6 +37,7 @@ struct FakeCamera {
   };
 
   std::uint32_t caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+  int opening = 0;  ///< what an opening ends with: 0, or -errno
   std::string bus = "usb-0000:00:14.0-1";
   std::string serial;
   std::string card = "Grabber";

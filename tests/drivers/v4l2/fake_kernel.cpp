@@ -70,6 +70,9 @@ int FakeKernel::open(const std::string& path) {
   const int number = std::stoi(real.substr(std::strlen("/dev/video")));
   Opened opened;
   opened.camera = cameras_.at(number);
+  if (opened.camera->opening != 0) {
+    return opened.camera->opening;
+  }
   opened.number = number;
   opened_[next_descriptor_] = std::move(opened);
   return next_descriptor_++;
@@ -134,6 +137,7 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       }
       put(input.name, camera.inputs[input.index].name);
       input.status = camera.inputs[input.index].status;
+      input.std = camera.inputs[input.index].standards;
       return 0;
     }
     case VIDIOC_S_INPUT: camera.input = *static_cast<int*>(argument); return 0;
