@@ -72,9 +72,6 @@ Result<void> CameraDevice::open_all(std::string& message) {
     return refuse(Error::kIo, message,
                   "is busy: another program takes its pictures, expected it free");
   }
-  // Where the driver knows priorities nobody else changes anything while we have it.
-  auto priority = static_cast<std::uint32_t>(V4L2_PRIORITY_RECORD);
-  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_S_PRIORITY, &priority));
   keep_input();
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
   TUBESIGHT_TRY(picture_.begin(descriptor_, settings_.controls, message));

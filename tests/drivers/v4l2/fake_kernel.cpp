@@ -101,11 +101,6 @@ int FakeKernel::ioctl(int descriptor, unsigned long request, void* argument) {
       return result;
     }
   }
-  const bool changes =
-      request == VIDIOC_S_INPUT || request == VIDIOC_S_STD || request == VIDIOC_S_CTRL;
-  if (changes && others_go_first(opened)) {
-    return -EBUSY;
-  }
   if (!of_this_camera(*opened.camera, request, argument)) {
     return -EINVAL;
   }
@@ -199,7 +194,6 @@ int FakeKernel::answer_stream(Opened& opened, unsigned long request, void* argum
       opened.subscribed.emplace_back(wanted.type, wanted.id);
       return 0;
     }
-    case VIDIOC_S_PRIORITY: opened.priority = *static_cast<std::uint32_t*>(argument); return 0;
     case VIDIOC_DQEVENT: {
       if (camera.events.empty()) {
         return -ENOENT;
@@ -252,13 +246,6 @@ int FakeKernel::set_format(Opened& opened, v4l2_format& format) const {
   pix.sizeimage = pix.bytesperline * pix.height;
   opened.format = pix;
   return 0;
-}
-
-/// What changes the camera is refused while another one that has it open has a higher priority.
-bool FakeKernel::others_go_first(const Opened& opened) const {
-  return std::any_of(opened_.begin(), opened_.end(), [&](const auto& entry) {
-    return entry.second.camera == opened.camera && entry.second.priority > opened.priority;
-  });
 }
 
 /// Whoever has a camera's buffers has the camera.

@@ -66,7 +66,6 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
     std::vector<std::uint32_t> done;
     bool streams = false;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> subscribed;  ///< types and numbers
-    std::uint32_t priority = V4L2_PRIORITY_INTERACTIVE;
     std::uint32_t sequence = 0;
     bool bottom = false;  ///< the next of alternate fields
     core::FieldTime next{0};
@@ -78,7 +77,6 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
   int answer_stream(Opened& opened, unsigned long request, void* argument);
   int set_format(Opened& opened, v4l2_format& format) const;
   [[nodiscard]] bool others_stream(const Opened& opened) const;
-  [[nodiscard]] bool others_go_first(const Opened& opened) const;
   void tell(FakeCamera& camera, const v4l2_event& event);
   int give_buffers(Opened& opened, v4l2_requestbuffers& wanted) const;
   int dequeue(Opened& opened, v4l2_buffer& buffer);

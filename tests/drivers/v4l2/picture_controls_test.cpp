@@ -1,8 +1,6 @@
-// What other programs change of a camera that a box has: its picture mirrored or moved, its input.
+// What other programs change of a camera that a box has: its picture mirrored, turned or moved.
 
 #include "drivers/v4l2/picture_controls.h"
-
-#include <cerrno>
 
 #include <gtest/gtest.h>
 
@@ -115,22 +113,6 @@ TEST_F(PictureControls, OtherControlsAreNobodysBusiness) {
   bench_.grabber().look_after();
 
   EXPECT_TRUE(bench_.good_within(2));
-}
-
-// Where the driver knows priorities, nobody can.
-TEST_F(PictureControls, AnotherProgramIsRefusedWhatWouldChangeThePicture) {
-  ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
-  FakeKernel& kernel = bench_.kernel();
-  const int other = kernel.open("/dev/video0");
-  int input = 0;
-  v4l2_control flip{V4L2_CID_HFLIP, 1};
-  EXPECT_EQ(kernel.ioctl(other, VIDIOC_S_INPUT, &input), -EBUSY);
-  EXPECT_EQ(kernel.ioctl(other, VIDIOC_S_CTRL, &flip), -EBUSY);
-  EXPECT_TRUE(bench_.good_within(1));
-
-  bench_.grabber().stop();
-  EXPECT_EQ(kernel.ioctl(other, VIDIOC_S_INPUT, &input), 0) << "when it is free";
-  kernel.close(other);
 }
 
 }  // namespace
