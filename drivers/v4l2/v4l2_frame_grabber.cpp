@@ -234,6 +234,13 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
     silence_.broken(clock_->now());
+    // What was wrong with the buffer before is known by now; in between nobody may have looked.
+    if (report_.trouble != CameraTrouble::kDamaged) {
+      silence_.whole();
+    }
+    if (silence_.broken_for_long(device_.agreed().span)) {
+      return Unexpected(break_off(CameraTrouble::kDamaged, Error::kIo).error());
+    }
     held_ = buffer.index;
     if (!settings_.use_stamps) {
       buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
