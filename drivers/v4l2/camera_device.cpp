@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <vector>
 
 #include <linux/videodev2.h>
@@ -72,7 +73,7 @@ Result<void> CameraDevice::open_all(std::string& message) {
     return refuse(Error::kIo, message,
                   "is busy: another program takes its pictures, expected it free");
   }
-  keep_input();
+  TUBESIGHT_TRY(keep_input(message));
   TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
   TUBESIGHT_TRY(picture_.begin(descriptor_, settings_.controls, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
@@ -83,12 +84,22 @@ Result<void> CameraDevice::open_all(std::string& message) {
 
 /// Settings that name no input take the one found at the first start, not one that somebody has
 /// switched to since.
-void CameraDevice::keep_input() {
+Result<void> CameraDevice::keep_input(std::string& message) {
   int index = 0;
-  if (input_ >= 0 && kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) == 0 && index != input_) {
-    index = input_;
-    static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_S_INPUT, &index));
+  if (input_ < 0 || !settings_.input.empty() ||
+      kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) != 0 || index == input_) {
+    return {};
   }
+  int wanted = input_;
+  const int status = kernel_->ioctl(descriptor_, VIDIOC_S_INPUT, &wanted);
+  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index));
+  if (status == 0 && index == input_) {
+    return {};
+  }
+  return refuse(Error::kIo, message,
+                "stands at input " + std::to_string(index) + ", expected " +
+                    std::to_string(input_) + ", the one that this box has used so far" +
+                    (status == 0 ? "" : std::string(": ") + std::strerror(-status)));
 }
 
 Result<void> CameraDevice::check(const std::string& node, std::string& message) {

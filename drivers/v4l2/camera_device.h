@@ -55,7 +55,7 @@ class CameraDevice {
  private:
   core::Result<void> open_all(std::string& message);
   core::Result<void> find(std::string& node, std::string& message);
-  void keep_input();
+  core::Result<void> keep_input(std::string& message);
   core::Result<void> check(const std::string& node, std::string& message);
   Signal signal_of_input();
 

@@ -104,10 +104,11 @@ class Setup {
 
 Result<void> Setup::choose_input() {
   std::string offered;
-  for (std::uint32_t i = 0; i < kMostEntries && !settings_.input.empty(); ++i) {
+  int chosen = -1;
+  for (std::uint32_t i = 0; chosen < 0 && !settings_.input.empty(); ++i) {
     v4l2_input input{};
     input.index = i;
-    if (ask(VIDIOC_ENUMINPUT, &input) != 0) {
+    if (i == kMostEntries || ask(VIDIOC_ENUMINPUT, &input) != 0) {
       return fail(Error::kUnsupported, "has no input '" + settings_.input + "', offers " +
                                            (offered.empty() ? "none by a name" : offered));
     }
@@ -118,12 +119,16 @@ Result<void> Setup::choose_input() {
       if (const int status = ask(VIDIOC_S_INPUT, &index); status != 0) {
         return fail(Error::kIo, "input '" + name + "': " + std::strerror(-status));
       }
-      break;
+      chosen = static_cast<int>(i);
     }
   }
   int index = 0;
   agreed_.input_status = ask(VIDIOC_G_INPUT, &index) == 0;
   agreed_.input = static_cast<std::uint32_t>(index);
+  // Behind another input there is another camera.
+  if (chosen >= 0 && agreed_.input_status && index != chosen) {
+    return fail(Error::kIo, "does not keep its input '" + settings_.input + "'");
+  }
   return {};
 }
 

@@ -352,6 +352,25 @@ TEST_F(CameraFaults, AnInputThatSomebodySwitchedIsChosenAnew) {
   EXPECT_EQ(bench_.camera().input, 0) << "that of the first start, where the settings name none";
 }
 
+TEST_F(CameraFaults, AnInputThatCannotBeChosenAnewIsNotExchangedForAnother) {
+  bench_.camera().inputs.push_back({"Composite 1", 0});
+  bench_.camera().input = 1;
+  expect_error(Error::kIo);
+  const std::string stands = std::string("camera ") + kByPath +
+                             ": stands at input 1, expected 0, the one that this box has used so "
+                             "far";
+  bench_.camera().results[VIDIOC_S_INPUT] = {-EBUSY};
+  ASSERT_FALSE(bench_.start_anew());
+  EXPECT_EQ(bench_.message(), stands + ": Device or resource busy");
+  bench_.camera().stays_at_input = true;
+  ASSERT_FALSE(bench_.start_anew());
+  EXPECT_EQ(bench_.message(), stands);
+
+  bench_.camera().stays_at_input = false;
+  expect_recovery();
+  EXPECT_EQ(bench_.camera().input, 0);
+}
+
 TEST_F(CameraFaults, OtherEventsAreNone) {
   bench_.camera().events = {v4l2_event{}};
 

@@ -232,6 +232,10 @@ TEST(CameraSetup, InputsGoByTheirNames) {
   EXPECT_EQ(refusal(bench, Error::kUnsupported), "has no input 'Composite 1', offers 'S-Video'");
 
   bench.camera().inputs.push_back({"Composite 1", 0});
+  bench.camera().stays_at_input = true;
+  EXPECT_EQ(refusal(bench, Error::kIo), "does not keep its input 'Composite 1'");
+
+  bench.camera().stays_at_input = false;
   EXPECT_TRUE(bench.grabber().start());
 }
 

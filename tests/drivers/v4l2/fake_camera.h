@@ -42,10 +42,11 @@ struct FakeCamera {
   std::string serial;
   std::string card = "Grabber";
   std::vector<Input> inputs{{"S-Video", 0}};
-  int input = 0;               ///< the one chosen
-  v4l2_std_id standard = 0;    ///< set; 0: it has none
-  v4l2_std_id sensed = 0;      ///< of the signal, as QUERYSTD says it; 0: it cannot
-  core::FieldTime sensing{0};  ///< how long QUERYSTD takes
+  int input = 0;                ///< the one chosen
+  bool stays_at_input = false;  ///< it says that another one was chosen, and it was not
+  v4l2_std_id standard = 0;     ///< set; 0: it has none
+  v4l2_std_id sensed = 0;       ///< of the signal, as QUERYSTD says it; 0: it cannot
+  core::FieldTime sensing{0};   ///< how long QUERYSTD takes
   std::vector<std::uint32_t> formats{V4L2_PIX_FMT_GREY};
   std::vector<std::uint32_t> fields{V4L2_FIELD_NONE};  ///< others are answered with the first
   std::uint32_t widths_of = 1;      ///< a width is rounded up to a multiple of it

@@ -135,7 +135,9 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       input.std = camera.inputs[input.index].standards;
       return 0;
     }
-    case VIDIOC_S_INPUT: camera.input = *static_cast<int*>(argument); return 0;
+    case VIDIOC_S_INPUT:
+      camera.input = camera.stays_at_input ? camera.input : *static_cast<int*>(argument);
+      return 0;
     case VIDIOC_G_INPUT:
       *static_cast<int*>(argument) = camera.input;
       return camera.inputs.empty() ? -ENOTTY : 0;
