@@ -27,10 +27,17 @@ Result<void> PictureControls::begin(int descriptor, const std::vector<ControlSet
   for (const std::uint32_t id : kControls) {
     v4l2_queryctrl control{};
     control.id = id;
-    v4l2_control now{id, 0};
     if (kernel_->ioctl(descriptor, VIDIOC_QUERYCTRL, &control) != 0 ||
-        (control.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_WRITE_ONLY)) != 0 ||
-        kernel_->ioctl(descriptor, VIDIOC_G_CTRL, &now) != 0) {
+        (control.flags & (V4L2_CTRL_FLAG_DISABLED | V4L2_CTRL_FLAG_WRITE_ONLY)) != 0) {
+      continue;
+    }
+    // Before it is read: a change in between would be missed.
+    v4l2_event_subscription change{};
+    change.type = V4L2_EVENT_CTRL;
+    change.id = id;
+    static_cast<void>(kernel_->ioctl(descriptor, VIDIOC_SUBSCRIBE_EVENT, &change));
+    v4l2_control now{id, 0};
+    if (kernel_->ioctl(descriptor, VIDIOC_G_CTRL, &now) != 0) {
       continue;
     }
     const std::string name = text_of(control.name, sizeof control.name);
@@ -43,10 +50,6 @@ Result<void> PictureControls::begin(int descriptor, const std::vector<ControlSet
       return Unexpected(Error::kUnsupported);
     }
     static_cast<void>(kept_.try_push_back({id, now.value}));  // as many as there are
-    v4l2_event_subscription change{};
-    change.type = V4L2_EVENT_CTRL;
-    change.id = id;
-    static_cast<void>(kernel_->ioctl(descriptor, VIDIOC_SUBSCRIBE_EVENT, &change));
   }
   return {};
 }

@@ -94,6 +94,25 @@ TEST_F(PictureControls, OneChangedInTheStreamEndsItBeforeAnotherPictureIsTaken) 
   EXPECT_TRUE(bench_.good_within(1));
 }
 
+TEST_F(PictureControls, OneChangedWithinAnOpeningIsNotMissed) {
+  for (const unsigned long moment : {VIDIOC_REQBUFS, VIDIOC_STREAMON}) {
+    bench_.camera().controls[1].value = 0;
+    bool done = moment != VIDIOC_REQBUFS;  // the first one asks only whether the camera is free
+    bench_.camera().before = [&](unsigned long request) {
+      if (request == moment && done) {
+        bench_.kernel().change_control(bench_.camera(), V4L2_CID_HFLIP, 1);
+      }
+      done = done || request == moment;
+    };
+    ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
+    bench_.camera().before = nullptr;
+    EXPECT_EQ(bench_.next_status(), FieldStatus::kMissing);
+    EXPECT_EQ(bench_.report().trouble, CameraTrouble::kAltered);
+    bench_.grabber().stop();
+    bench_.camera().events.clear();
+  }
+}
+
 TEST_F(PictureControls, WhereTheDriverTellsNoChangesTheyAreLookedFor) {
   ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
   bench_.grabber().look_after();
