@@ -34,6 +34,8 @@ struct LinkHealth {
   std::int64_t fields = -1;         ///< counters of the box; below 0: not known
   std::int64_t fields_missing = -1;
   std::int64_t fields_late = -1;
+  std::int64_t pairs_written = -1;  ///< below 0: the box keeps none
+  std::int64_t pairs_lost = -1;
 };
 
 /// What has come over the line so far, and how long the box took.
