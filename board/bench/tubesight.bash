@@ -28,7 +28,7 @@ _tubesight() {
   case $command in
     replay)
       options="-h --help --overlay-estimates"
-      taking="--fields --centers --overlay --poses --scalar"
+      taking="--fields --centers --overlay --poses --pairs --scalar"
       ;;
     pose)
       options="-h --help --only-start --average --total"
@@ -70,7 +70,7 @@ _tubesight() {
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
-    replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | look--csv | \
+    replay--fields | replay--centers | replay--poses | replay--pairs | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge | calibrate--touches)
       _tubesight_files .csv && return
       ;;

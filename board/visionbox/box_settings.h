@@ -6,6 +6,7 @@
 
 #include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
+#include "board/visionbox/pairs_settings.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
 #include "core/base/result.h"
@@ -49,6 +50,7 @@ struct BoxSettings {
   RealTimeSettings real_time;
   LinkSettings link;
   RecordSettings record;
+  PairsSettings pairs;
   LampSettings lamp;
   bool lamp_sound = false;  ///< which lamp it is, is known: it can be made dark
   drivers::SessionFile session;

@@ -67,6 +67,13 @@ std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxS
   return std::make_unique<RecordingWriter>(*recorder, settings.record, settings.told(), tell);
 }
 
+/// Null: no pairs are written.
+std::unique_ptr<PairsWriter> make_pairs_writer(PairDesk& desk, const BoxSettings& settings,
+                                               const VisionBox::Tell& tell) {
+  return settings.pairs.wanted() ? std::make_unique<PairsWriter>(desk, settings.pairs.file, tell)
+                                 : nullptr;
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
@@ -77,12 +84,14 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       kept_link_(make_link(settings, source_.clock(), tell_)),
       silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
+      pairs_writer_(make_pairs_writer(pair_desk_, settings, tell_)),
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, tell_)),
-      loop_(
-          session_, ports(),
-          {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp)}),
-      tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
+      loop_(session_, ports(),
+            {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp),
+             pairs_writer_ == nullptr ? nullptr : &pair_desk_}),
+      tracking_(loop_, source_, {kept_link_.get(), world_->lamp(), pairs_writer_.get()},
+                settings.real_time) {}
 
 /// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
@@ -111,6 +120,9 @@ Result<void> VisionBox::start_without_tracking() {
     return started;
   }
   pose_worker_.start();
+  if (pairs_writer_ != nullptr) {
+    pairs_writer_->start();
+  }
   if (writer_ != nullptr) {
     writer_->start();
   }
@@ -141,6 +153,9 @@ void VisionBox::stop() {
   pose_worker_.stop();
   loop_.stop();
   source_.stop();
+  if (pairs_writer_ != nullptr) {
+    pairs_writer_->stop();
+  }
   if (writer_ != nullptr) {
     recorder_->flush();
     writer_->stop();
@@ -180,6 +195,7 @@ BoxReport VisionBox::report() const {
   report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();
+  report.pairs = pairs_writer_ == nullptr ? PairsReport{} : pairs_writer_->report();
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;
