@@ -304,6 +304,8 @@ std::string status_answer(const BoxReport& report) {
   add_link(line, report);
   add_recorder(line, report);
   add_pairs(line, report.pairs);
+  line.open("zones").add("places", std::int64_t{report.zones});
+  line.add("known", report.zones_known).close();
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();

@@ -36,6 +36,8 @@ struct BoxReport {
   LinkReport link;
   RecorderReport recorder;
   PairsReport pairs;
+  std::int32_t zones = 0;     ///< places that corrections were seen at
+  bool zones_known = false;   ///< between those, too, by now
   std::int32_t priority = 0;  ///< wanted
   bool memory_locked = false;
   bool lock_wanted = false;

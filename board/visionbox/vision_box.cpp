@@ -25,15 +25,16 @@ std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::Opera
 
 /// Null: there is none.
 std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Clock& clock,
-                                    const VisionBox::Tell& tell) {
+                                    const ZoneDesk* zones, const VisionBox::Tell& tell) {
   if (settings.link.kind == LinkKind::kNone) {
     return nullptr;
   }
   // A claim is stamped when this thread sees it: late on a busy machine without a rank.
   const KeptLink::Rank rank =
       settings.real_time.priority > 0 ? KeptLink::Rank::kBeforeOthers : KeptLink::Rank::kLikeOthers;
-  return std::make_unique<KeptLink>(settings.link.modbus, link_identity(settings.told()), clock,
-                                    rank, tell);
+  drivers::LinkIdentity identity = link_identity(settings.told());
+  identity.zones = zones;
+  return std::make_unique<KeptLink>(settings.link.modbus, identity, clock, rank, tell);
 }
 
 /// Null: nothing is recorded.
@@ -81,7 +82,10 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       tell_(std::move(tell)),
       world_(make_world(settings, socket_station_, tell_)),
       source_(world_->source()),
-      kept_link_(make_link(settings, source_.clock(), tell_)),
+      zones_(settings.zones.wanted()
+                 ? std::make_unique<ZoneDesk>(settings.zones.points, settings.told().tubesheet)
+                 : nullptr),
+      kept_link_(make_link(settings, source_.clock(), zones_.get(), tell_)),
       silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       pairs_writer_(make_pairs_writer(pair_desk_, settings, tell_)),
@@ -120,6 +124,9 @@ Result<void> VisionBox::start_without_tracking() {
     return started;
   }
   pose_worker_.start();
+  if (zones_ != nullptr) {
+    zones_->start();
+  }
   if (pairs_writer_ != nullptr) {
     pairs_writer_->start();
   }
@@ -153,6 +160,9 @@ void VisionBox::stop() {
   pose_worker_.stop();
   loop_.stop();
   source_.stop();
+  if (zones_ != nullptr) {
+    zones_->stop();
+  }
   if (pairs_writer_ != nullptr) {
     pairs_writer_->stop();
   }
@@ -196,6 +206,10 @@ BoxReport VisionBox::report() const {
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();
   report.pairs = pairs_writer_ == nullptr ? PairsReport{} : pairs_writer_->report();
+  if (zones_ != nullptr) {
+    report.zones = zones_->places();
+    report.zones_known = zones_->ready();
+  }
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;

@@ -19,6 +19,7 @@
 #include "board/visionbox/silent_link.h"
 #include "board/visionbox/tracking_thread.h"
 #include "board/visionbox/watched_world.h"
+#include "board/visionbox/zone_desk.h"
 #include "core/base/result.h"
 #include "core/session/session.h"
 #include "drivers/control/socket_station.h"
@@ -82,6 +83,7 @@ class VisionBox {
   drivers::SocketStation socket_station_;
   std::unique_ptr<WatchedWorld> world_;
   FieldSource& source_;
+  std::unique_ptr<ZoneDesk> zones_;      ///< null: no corrections
   std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
   SilentLink silent_link_;
 

@@ -173,6 +173,10 @@ void Dialogue::read(std::int32_t first, FieldTime now, std::span<std::uint16_t> 
     encode_verdict(now);
   } else if (block->name == Block::kHealth) {
     encode_health(*state_, image_);
+  } else if (block->name == Block::kZone) {
+    encode_zone(state_->identity.zones,
+                {image_.get(Register::kZoneTubeRow), image_.get(Register::kZoneTubeColumn)},
+                image_);
   }
   for (std::size_t i = 0; i < words.size(); ++i) {
     words[i] = image_.word(first + static_cast<std::int32_t>(i));
@@ -201,6 +205,7 @@ Refusal Dialogue::write(std::int32_t first, std::span<const std::uint16_t> words
 Refusal Dialogue::take(Block block, RegisterImage& next, FieldTime arrival) {
   switch (block) {
     case Block::kClaim: return take_claim(next, arrival);
+    case Block::kZoneTube: return Refusal::kNone;  // any tube may be asked for
     case Block::kRobot: return is_robot_sound(next) ? Refusal::kNone : Refusal::kIllegalValue;
     default: return take_commands(next, arrival);
   }

@@ -217,6 +217,23 @@ void encode_sighting(const LinkState& state, FieldTime now, RegisterImage& image
   image.set(kSequenceAgain, state.sequence);
 }
 
+void encode_zone(const ZoneCorrections* zones, core::TubeAddress tube, RegisterImage& image) {
+  using enum Register;
+  ZoneAnswer answer;
+  const bool known = zones != nullptr && zones->at(tube, answer);
+  Validity valid(image);
+  valid.value(kZoneX, known, answer.off_nm[0], kNanometres);
+  valid.value(kZoneY, known, answer.off_nm[1], kNanometres);
+  valid.value(kZoneZ, known, answer.off_nm[2], kNanometres);
+  valid.value(kZoneSigmaAcross, known, answer.across_nm, kNanometres);
+  valid.value(kZoneSigmaAlong, known, answer.along_nm, kNanometres);
+  valid.bit(Bit::k0);
+  image.set(kZoneValid, valid.bits());
+  image.set(kZoneReserved, 0);
+  image.set(kZoneRow, tube.row);
+  image.set(kZoneColumn, tube.column);
+}
+
 void clear_pose(RegisterImage& image) {
   core::PoseReply none;
   encode_pose(none, nullptr, image);

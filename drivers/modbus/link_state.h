@@ -6,6 +6,7 @@
 
 #include "core/base/field.h"
 #include "core/base/sighting.h"
+#include "drivers/modbus/zone_corrections.h"
 
 namespace tubesight::drivers {
 
@@ -20,6 +21,8 @@ struct LinkIdentity {
   /// Of the settings: a start over the link that names others is refused.
   std::array<std::int32_t, 4> window_px{};
   std::array<double, 2> optimum_px{};
+  /// Who knows the corrections by zones, and outlives the link; null: nobody.
+  const ZoneCorrections* zones = nullptr;
 };
 
 enum class Health : std::uint8_t { kUnknown, kWell, kFailed };

@@ -233,6 +233,22 @@ constexpr RegisterRow kTable[] = {
     {Register::kRobotJoint6, 2, 624, 100000, "deg", "robot_joint_6", ""},
     {Register::kRobotJoint7, 2, 626, 100000, "deg", "robot_joint_7", ""},
     {Register::kRobotJoint8, 2, 628, 100000, "deg", "robot_joint_8", ""},
+    {Register::kZoneTubeRow, 2, 640, 1, "", "zone_tube_row",
+     "tube at whose centre the correction is wanted"},
+    {Register::kZoneTubeColumn, 2, 642, 1, "", "zone_tube_column",
+     "tube at whose centre the correction is wanted"},
+    {Register::kZoneValid, 1, 650, 1, "bits", "zone_valid", "bit 0: the correction"},
+    {Register::kZoneReserved, 1, 651, 1, "", "zone_reserved", "always 0"},
+    {Register::kZoneRow, 2, 652, 1, "", "zone_row", "the tube, sent back"},
+    {Register::kZoneColumn, 2, 654, 1, "", "zone_column", "the tube, sent back"},
+    {Register::kZoneX, 2, 656, 10000, "mm", "zone_x",
+     "to be added to the tool's place as the robot's calibrated base tells it, sheet x"},
+    {Register::kZoneY, 2, 658, 10000, "mm", "zone_y", "sheet y"},
+    {Register::kZoneZ, 2, 660, 10000, "mm", "zone_z", "sheet z"},
+    {Register::kZoneSigmaAcross, 2, 662, 10000, "mm", "zone_sigma_across",
+     "one standard deviation of zone_x and of zone_y"},
+    {Register::kZoneSigmaAlong, 2, 664, 10000, "mm", "zone_sigma_along",
+     "one standard deviation of zone_z"},
 };
 
 constexpr RegisterBlock kBlocks[] = {
@@ -244,6 +260,8 @@ constexpr RegisterBlock kBlocks[] = {
     {Block::kResult, false, 400, 463, "result"},
     {Block::kHealth, false, 500, 545, "health"},
     {Block::kRobot, true, 600, 629, "robot"},
+    {Block::kZoneTube, true, 640, 643, "zone_tube"},
+    {Block::kZone, false, 650, 665, "zone"},
 };
 
 constexpr bool is_sound() {

@@ -179,6 +179,19 @@ enum class Register : std::uint8_t {
   kRobotJoint6,
   kRobotJoint7,
   kRobotJoint8,
+  // zone_tube
+  kZoneTubeRow,
+  kZoneTubeColumn,
+  // zone
+  kZoneValid,
+  kZoneReserved,
+  kZoneRow,
+  kZoneColumn,
+  kZoneX,
+  kZoneY,
+  kZoneZ,
+  kZoneSigmaAcross,
+  kZoneSigmaAlong,
   kCount,
 };
 
@@ -192,6 +205,8 @@ enum class Block : std::uint8_t {
   kResult,
   kHealth,
   kRobot,
+  kZoneTube,
+  kZone,
 };
 
 /// Where a value stands and what its number means.
@@ -218,7 +233,7 @@ struct RegisterBlock {
 };
 
 /// Words of the whole map, those between its blocks among them.
-inline constexpr std::int32_t kMapWords = 630;
+inline constexpr std::int32_t kMapWords = 666;
 
 /// What the map says where a value is not known; its validity bit is off as well.
 inline constexpr std::int32_t kUnknown = INT32_MIN;

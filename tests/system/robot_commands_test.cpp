@@ -59,10 +59,14 @@ class RobotCommands : public ::testing::Test {
     ASSERT_TRUE(drivers::load_scenario(scenario, {-1, true}, *scenario_, messages))
         << messages.front();
     ASSERT_TRUE(world_->configure(scenario_->scenario));
+    // One correction, at the centre of tube (40, 60).
+    box_.folder().write("zones.csv",
+                        "sheet_x_mm,sheet_y_mm,dx_mm,dy_mm,dz_mm,sigma_mm\n"
+                        "1524.0,1016.0,0.8,-0.4,1.2,0.1\n");
     box_.write_simulated_settings(
         "script = true\n[link]\nkind = \"modbus\"\nbaud = 115200\nparity = \"none\"\nunit = 17\n"
         "device = \"" +
-            line_.device() + "\"\n[pairs]\nfile = \"pairs.csv\"\n",
+            line_.device() + "\"\n[pairs]\nfile = \"pairs.csv\"\n[zones]\nfile = \"zones.csv\"\n",
         scenario);
     ASSERT_TRUE(box_.start_and_wait()) << box_.said();
     const std::string status = box_.wait_for("\"state\":\"tracking\"", std::chrono::seconds(20));
@@ -174,6 +178,37 @@ TEST_F(RobotCommands, WhatTheRobotTellsOfItsPoseIsKeptBesideTheBoxs) {
   EXPECT_NE(text.find(seen.data()), std::string::npos) << text << seen.data();
   const std::string status = box_.ask({"status"}).out;
   EXPECT_NE(status.find("pairs.csv, 1 written"), std::string::npos) << status;
+}
+
+TEST_F(RobotCommands, ACorrectionByZonesIsToldForAnyTube) {
+  // Function 23: the tube to 640, the block zone, 16 registers from 650.
+  const auto ask_at = [&](std::uint8_t row, std::uint8_t column) {
+    Bytes told = ask(line_, {23, 2, 138, 0, 16, 2, 128, 0, 4, 8, 0, 0, 0, row, 0, 0, 0, column});
+    told.resize(34);
+    return told;
+  };
+  Bytes there = ask_at(40, 60);
+  for (int i = 0; i < 100 && there[3] == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    there = ask_at(40, 60);
+  }
+  const auto at = [](const Bytes& told, int address) { return value(told, 650, address, kLength); };
+  ASSERT_EQ(there[3], 1) << "zone_valid";
+  EXPECT_EQ(long_at(there, 6), 40U) << "the tube, sent back";
+  EXPECT_EQ(long_at(there, 10), 60U);
+  // Nearly all of what was seen; some sizes of a millimetre and less beside 0.1 mm are expected.
+  EXPECT_NEAR(at(there, 656), 0.8, 0.08);
+  EXPECT_NEAR(at(there, 658), -0.4, 0.04);
+  EXPECT_NEAR(at(there, 660), 1.2, 0.12);
+  EXPECT_NEAR(at(there, 662), 0.1, 0.02);
+  // Half a metre away there is less of it, and it is less sure; beyond the sheet nothing is known.
+  const Bytes away = ask_at(60, 60);
+  EXPECT_LT(at(away, 656), 0.7);
+  EXPECT_GT(at(away, 656), 0.05);
+  EXPECT_GT(at(away, 662), 0.2);
+  const Bytes beyond = ask_at(40, 200);
+  EXPECT_EQ(beyond[3], 0);
+  EXPECT_EQ(long_at(beyond, 14), 0x80000000U);
 }
 
 TEST_F(RobotCommands, EachResultStaysUntilItsBitIsCleared) {

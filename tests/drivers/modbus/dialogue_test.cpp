@@ -338,12 +338,53 @@ TEST(DialogueCommand, RefusesValuesOutOfTheirLimits) {
   EXPECT_EQ(bench.get(kCommand), 0);
 }
 
+/// Knows tube (3, -4) alone.
+class OneZone final : public ZoneCorrections {
+ public:
+  bool at(core::TubeAddress tube, ZoneAnswer& answer) const override {
+    answer = {{1'234'567, -250'000, 49}, 300'000, 500'000};
+    return tube == core::TubeAddress{3, -4};
+  }
+};
+
+TEST(DialogueZone, TellsTheCorrectionAtTheTubeAskedFor) {
+  const OneZone zones;
+  LinkBench bench;
+  bench.state.identity.zones = &zones;
+  ASSERT_EQ(bench.set(kZoneTubeRow, 3), Refusal::kNone);
+  ASSERT_EQ(bench.set(kZoneTubeColumn, -4), Refusal::kNone);
+
+  EXPECT_EQ(bench.get(kZoneValid), 1);
+  EXPECT_EQ(bench.get(kZoneRow), 3);
+  EXPECT_EQ(bench.get(kZoneColumn), -4);
+  EXPECT_EQ(bench.get(kZoneX), 12'346);
+  EXPECT_EQ(bench.get(kZoneY), -2500);
+  EXPECT_EQ(bench.get(kZoneZ), 0);
+  EXPECT_EQ(bench.get(kZoneSigmaAcross), 3000);
+  EXPECT_EQ(bench.get(kZoneSigmaAlong), 5000);
+
+  ASSERT_EQ(bench.set(kZoneTubeRow, 4), Refusal::kNone);
+  EXPECT_EQ(bench.get(kZoneValid), 0) << "nothing is known of that";
+  EXPECT_EQ(bench.get(kZoneRow), 4);
+  EXPECT_EQ(bench.get(kZoneX), kUnknown);
+  EXPECT_EQ(bench.get(kZoneSigmaAlong), kUnknown);
+  EXPECT_EQ(bench.events.size(), 0u) << "the tracking is not asked";
+}
+
+TEST(DialogueZone, WithoutCorrectionsNothingIsKnown) {
+  LinkBench bench;
+  ASSERT_EQ(bench.set(kZoneTubeRow, 3), Refusal::kNone);
+  EXPECT_EQ(bench.get(kZoneValid), 0);
+  EXPECT_EQ(bench.get(kZoneX), kUnknown);
+  EXPECT_EQ(bench.set(kZoneX, 1), Refusal::kIllegalAddress) << "not to be written";
+}
+
 TEST(Dialogue, OneRequestStaysWithinOneBlock) {
   EXPECT_EQ(Dialogue::check_readable(100, 52), Refusal::kNone);
   EXPECT_EQ(Dialogue::check_readable(100, 53), Refusal::kIllegalAddress);
   EXPECT_EQ(Dialogue::check_readable(99, 2), Refusal::kIllegalAddress);
-  EXPECT_EQ(Dialogue::check_readable(629, 1), Refusal::kNone);
-  EXPECT_EQ(Dialogue::check_readable(630, 1), Refusal::kIllegalAddress);
+  EXPECT_EQ(Dialogue::check_readable(665, 1), Refusal::kNone);
+  EXPECT_EQ(Dialogue::check_readable(666, 1), Refusal::kIllegalAddress);
   EXPECT_EQ(Dialogue::check_readable(65535, 125), Refusal::kIllegalAddress);
   LinkBench bench;
   EXPECT_EQ(bench.set(kSequence, 1), Refusal::kIllegalAddress) << "not to be written";
