@@ -189,6 +189,7 @@ TEST_F(ClosedLoop, PairsThatTheBoxKeepsTellWhereTheBaseTrulyStands) {
   // The robot's base is not where it believes; it tells poses in its own base all the same.
   bench().robot_settings.errors.base.position_mm = {6.0, -4.0, 3.0};
   bench().robot_settings.errors.base.rotation_deg = {0.2, 0.0, 0.0};
+  bench().robot_settings.limits = {250.0, 2000.0, 20000.0};
   bench().start();
   bench().run(0.6);
   std::string message;
@@ -198,7 +199,7 @@ TEST_F(ClosedLoop, PairsThatTheBoxKeepsTellWhereTheBaseTrulyStands) {
     ASSERT_TRUE(bench().robot().move_to(tube));
     bench().run_to_rest();
     ASSERT_TRUE(bench().robot().say(event_of(core::PoseRequest{})));
-    bench().run(0.5);
+    bench().run(0.25);
     while (const auto pair = bench().pairs().take_pair()) {
       ASSERT_TRUE(drivers::append_pair(folder.path("pairs.csv"), *pair, message)) << message;
       ++written;
