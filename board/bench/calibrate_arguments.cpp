@@ -72,9 +72,49 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
       ->needs(dock);
 }
 
+void add_template_options(CLI::App& calibrate, CalibrateTemplateOptions& dots) {
+  const auto add = [&](const char* name, auto& value, const char* help, const char* text) {
+    return calibrate.add_option(name, value, help)
+        ->option_text(text)
+        ->each([&dots](const std::string&) { dots.given = true; });
+  };
+  const CLI::Range dot_range(2, 64);
+  const CLI::Range lengths(0.05, 1000.0);
+  add("--rows", dots.target.rows, "Of a template: lines of dots; default 10", "N")
+      ->check(dot_range);
+  add("--columns", dots.target.columns, "Of a template: dots in a line; default 10", "N")
+      ->check(dot_range);
+  add("--spacing-mm", dots.target.spacing_mm, "Of a template: from dot to dot; default 8", "S")
+      ->check(lengths);
+  add("--row-spacing-mm", dots.target.row_spacing_mm,
+      "Of a template: from line to line; default: as from dot to dot", "S")
+      ->check(lengths);
+  add("--dot-mm", dots.target.dot_mm, "Of a template: diameter of a dot; default 4", "D")
+      ->check(lengths);
+  add("--lattice", dots.lattice, "Of a template: square (default) or staggered", "NAME")
+      ->check(CLI::IsMember({"square", "staggered"}));
+  add("--dots", dots.dots, "Of a template: dark (default) on bright, or bright on dark", "NAME")
+      ->check(CLI::IsMember({"dark", "bright"}));
+  add("--paper", dots.paper,
+      "Of a template: A4 (default), A3, A2, letter, tabloid, or WIDTH,HEIGHT in mm", "PAPER");
+}
+
 bool is_for_base(const CalibrateBaseOptions& base) {
   return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty() ||
          !base.picture.empty();
+}
+
+ExitStatus run_template(CalibrateArguments& arguments) {
+  if (!arguments.out.empty() || !arguments.of_base.empty() || !arguments.arm.empty() ||
+      is_for_base(arguments.base) || !arguments.tool.docks.empty()) {
+    std::fprintf(stderr,
+                 "calibrate template: writes the file that is named behind it, expected --rows, "
+                 "--columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, --paper "
+                 "alone\n");
+    return ExitStatus::kWrongInput;
+  }
+  arguments.dots.out = arguments.file;
+  return run_calibrate_template(arguments.dots);
 }
 
 }  // namespace
@@ -86,14 +126,16 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "robot's base from pairs of poses");
   calibrate
       ->add_option("WHAT", arguments.what,
-                   "What is calibrated: camera, tool or base, a base's zones, or an arm's links")
+                   "What is calibrated: camera, tool or base, a base's zones, or an arm's links; "
+                   "or template: nothing, but dots to print")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links"}));
+      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links", "template"}));
   calibrate
       ->add_option(
           "FILE", arguments.file,
           "camera: template and views (TOML); tool: the session, with camera and tubesheet "
-          "(TOML); base, zones and links: poses by robot and by vision (CSV)")
+          "(TOML); base, zones and links: poses by robot and by vision (CSV); template: the file "
+          "to write (.svg or .pdf)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
@@ -101,6 +143,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->option_text("OUT.toml");
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
+  add_template_options(*calibrate, arguments.dots);
   calibrate
       ->add_option("--base", arguments.of_base,
                    "Of zones: a settings file with the [base] that they correct")
@@ -115,6 +158,15 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
   if (arguments.what != "zones" && !arguments.of_base.empty()) {
     std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
+    return ExitStatus::kWrongInput;
+  }
+  if (arguments.what == "template") {
+    return run_template(arguments);
+  }
+  if (arguments.dots.given) {
+    std::fprintf(stderr,
+                 "--rows, --columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, "
+                 "--paper: of a template alone, expected calibrate template\n");
     return ExitStatus::kWrongInput;
   }
   if (arguments.what != "links" && !arguments.arm.empty()) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "board/bench/calibrate/base_command.h"
+#include "board/bench/calibrate/template_command.h"
 #include "board/bench/calibrate/tool_command.h"
 #include "board/bench/output/exit_status.h"
 
@@ -21,6 +22,7 @@ struct CalibrateArguments {
   CalibrateBaseOptions base;
   std::string of_base;  ///< the settings that zones correct
   std::string arm;      ///< the arm whose links are calibrated
+  CalibrateTemplateOptions dots;
 };
 
 /// Adds `calibrate` with all its options, which are read into `arguments`.

@@ -26,8 +26,8 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 6> kBoxTables = {"source", "control", "realtime",
-                                                        "link",   "record",  "lamp"};
+constexpr std::array<std::string_view, 8> kBoxTables = {"source", "control", "realtime", "link",
+                                                        "record", "pairs",   "zones",    "lamp"};
 constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -167,6 +167,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.real_time = {};
   box.link = {};
   box.record = {};
+  box.pairs = {};
+  box.zones = {};
   box.lamp = {};
   SourceLight light = SourceLight::kUnknown;
   drivers::read_table(document, "source", true, [&](TableReader& table) {
@@ -182,6 +184,11 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_link(table, box.link); });
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
+  drivers::read_table(document, "pairs", false,
+                      [&](TableReader& table) { read_pairs(document, table, box.pairs); });
+  drivers::read_table(document, "zones", false, [&](TableReader& table) {
+    read_zones(document, table, box.link.kind != LinkKind::kNone, box.zones);
+  });
   std::size_t told = 0;
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
     read_lamp(table, {light, box.link.kind != LinkKind::kNone, exposure_ms(box.source)}, box.lamp);

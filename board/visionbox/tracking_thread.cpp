@@ -113,6 +113,10 @@ void TrackingThread::tell_robot() {
   health.fields = now_.counters.fields;
   health.fields_missing = now_.counters.missing;
   health.fields_late = now_.late;
+  if (told_.pairs != nullptr) {
+    health.pairs_written = told_.pairs->written();
+    health.pairs_lost = told_.pairs->lost();
+  }
   told_.link->set_health(health);
 }
 

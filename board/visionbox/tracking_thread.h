@@ -11,6 +11,7 @@
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/latency_histogram.h"
+#include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/wakeup.h"
 #include "core/base/scalar.h"
@@ -47,6 +48,7 @@ class TrackingThread {
   struct Told {
     KeptLink* link = nullptr;
     const LampKeeper* lamp = nullptr;
+    const PairsWriter* pairs = nullptr;
   };
 
   /// All outlive the thread. The loop and the source are started by others. The robot reads over

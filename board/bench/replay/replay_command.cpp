@@ -19,6 +19,7 @@
 #include "board/box/pose_service.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
+#include "drivers/files/pairs_file.h"
 #include "drivers/replay/companion.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
@@ -114,6 +115,12 @@ class Replay {
       tell(poses_file_.message());
       return false;
     }
+    if (std::string ignored;
+        !options_.pairs.empty() &&
+        !(pairs_.begin({}, options_.pairs, ignored) && pairs_file_.open(options_.pairs))) {
+      tell(pairs_file_.message());
+      return false;
+    }
     if (!options_.overlay.empty()) {
       overlay_ = make_overlay_sink(options_.overlay);
       if (!overlay_->open(grabber_->header(), grabber_->interlaced())) {
@@ -130,9 +137,10 @@ class Replay {
     if (has_state_) {
       inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
     }
-    const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
-                                poses_,   pose_rows_,     statistics_,
-                                progress_};
+    const ReplayOutputs outputs{
+        results_,    overlay_.get(), options_.overlay_estimates,
+        poses_,      pose_rows_,     options_.pairs.empty() ? nullptr : &pairs_,
+        statistics_, progress_};
     switch (options_.scalar) {
       case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
       case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
@@ -171,6 +179,10 @@ class Replay {
       tell(poses_file_.message());
       return false;
     }
+    if (!options_.pairs.empty() && (!pairs_file_.write(pairs_.text()) || !pairs_file_.commit())) {
+      tell(pairs_file_.message());
+      return false;
+    }
     return true;
   }
 
@@ -196,6 +208,8 @@ class Replay {
   PoseService poses_;
   std::string pose_rows_;
   drivers::AtomicFile poses_file_;
+  drivers::PairsText pairs_;
+  drivers::AtomicFile pairs_file_;
   ReplayStatistics statistics_;
   ProgressLine progress_;
 };

@@ -14,6 +14,7 @@
 #include "board/box/frame_view.h"
 #include "board/box/overlay_composer.h"
 #include "board/box/overlay_snapshot.h"
+#include "board/box/pair_desk.h"
 #include "core/base/instantiate.h"
 #include "core/base/snapshot.h"
 #include "core/session/session.h"
@@ -115,6 +116,7 @@ class ReplayJob {
     // What the recording tells of poses is not computed again; a box's tells of all.
     const bool told = in_.events.has_pose_results() || in_.state;
     services.poses = told ? nullptr : &out_.poses;
+    services.pairs = out_.pairs == nullptr ? nullptr : &pair_desk_;
     if (display_) {
       services.view = &display_->view;
       services.overlay = &display_->latest;
@@ -125,6 +127,11 @@ class ReplayJob {
 
   Result<void> write_down(const core::Field& field, const core::session::Output& output) {
     write_down_pose();
+    while (const auto pair = pair_desk_.take_pair()) {
+      if (!out_.pairs->append(*pair, message_)) {
+        return core::Unexpected(Error::kInvalidArgument);
+      }
+    }
     out_.statistics.add(output);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
@@ -181,6 +188,7 @@ class ReplayJob {
   ScriptedRobotLink link_;
   ReplayStation station_;
   core::session::Session<S> session_;
+  PairDesk pair_desk_;
   std::optional<Display> display_;
   std::optional<BoxLoop<S>> loop_;
   std::string message_;

@@ -3,9 +3,12 @@
 #include "core/calibration/camera_calibration.h"
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -46,7 +49,8 @@ class CameraCalibration : public ::testing::Test {
       TargetPose pose;
       pose.R_camera_target = rotation;
       pose.t_camera_target = middle - rotation * Eigen::Vector3d(36.0, 36.0, 0.0);
-      dot.seen_px = centroid_of(data_->sensor, truth_, pose, dot.place_mm, data_->dot_radius_mm) +
+      dot.seen_px = centroid_of(data_->sensor, truth_, pose, stretch_.cwiseProduct(dot.place_mm),
+                                data_->dot_radius_mm) +
                     noise_px_ * Eigen::Vector2d(spread_(random_), spread_(random_));
       ASSERT_TRUE(data_->dots.try_push_back(dot));
     }
@@ -56,7 +60,7 @@ class CameraCalibration : public ::testing::Test {
 
   /// Two heights of a stage whose axis is the template's normal, tipped by `tip`.
   void add_stage(double tip = 0.0, double from_mm = 0.0, double to_mm = 30.0) {
-    const Eigen::Matrix3d rotation = turned(0.2, -0.2, 0.7);
+    const Eigen::Matrix3d rotation = turned(0.2, -0.2, turn_deg_);
     const Eigen::Vector3d axis = (rotation.col(2) + Eigen::Vector3d(tip, 0.0, 0.0)).normalized();
     const Eigen::Vector3d middle(0.5, -0.3, 82.0);
     add_view(rotation, middle, true, from_mm);
@@ -85,6 +89,8 @@ class CameraCalibration : public ::testing::Test {
 
   CameraValues truth_;
   double noise_px_ = 0.015;
+  double turn_deg_ = 0.7;                              ///< of the template on the stage
+  Eigen::Vector3d stretch_ = Eigen::Vector3d::Ones();  ///< of the template, untold
   std::mt19937 random_{7};
   std::normal_distribution<double> spread_{0.0, 1.0};
   std::unique_ptr<CalibrationData> data_ = std::make_unique<CalibrationData>();
@@ -233,6 +239,69 @@ TEST_F(CameraCalibration, OfATemplatePrintedOutOfScaleIsRefused) {
     dot.place_mm.y() *= dot.place_mm.y() > 35.0 ? 1.02 : 1.0;
   }
   EXPECT_NE(calibrate(), CalibrationRefusal::kNone);
+}
+
+/// A template as a printer may stretch it, and nobody was told. Prints the rows of
+/// docs/calibration.md.
+class StretchedTemplate : public CameraCalibration {
+ protected:
+  StretchedTemplate() { noise_px_ = 0.02; }
+
+  /// On a stage, turned by so much in the picture; without that in free poses.
+  void calibrate_stretched(const char* what, std::optional<double> turn_deg, double across,
+                           double down) {
+    data_->dots.clear();
+    data_->views.clear();
+    stretch_ << across, down, 1.0;
+    turn_deg_ = turn_deg.value_or(0.0);
+    turn_deg ? add_stage() : add_free_poses();
+    ASSERT_EQ(calibrate(), CalibrationRefusal::kNone) << what;
+    std::printf("%-8s turned %2.0f  EFL %.4f +- %.4f mm, h_sx %.4f, map %.2f px, sigma %.3f px\n",
+                what, turn_deg.value_or(-1.0), state_->camera(0),
+                std::sqrt(outcome_.fit.camera_covariance(0, 0)), state_->camera(1),
+                outcome_.map.rms_px, outcome_.fit.sigma_px);
+  }
+  [[nodiscard]] double off_mm() const { return state_->camera(0) - truth_(0); }
+};
+
+TEST_F(StretchedTemplate, OfAStageThatStandsStraightShowsNothing) {
+  calibrate_stretched("as told", 0.7, 1.0, 1.0);
+  EXPECT_LT(std::abs(off_mm()), 0.0015);
+  calibrate_stretched("larger", 0.7, 1.002, 1.002);
+  EXPECT_NEAR(off_mm(), 0.002 * 5.06, 0.0015);
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+  calibrate_stretched("wider", 0.7, 1.002, 1.0);
+  EXPECT_NEAR(state_->camera(1), 1.002 * 1.021, 0.0005) << "it is taken for the horizontal scale";
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+  calibrate_stretched("longer", 0.7, 1.0, 1.002);
+  EXPECT_NEAR(state_->camera(1), 1.021 / 1.002, 0.0005);
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+}
+
+TEST_F(StretchedTemplate, OfAStageThatStandsTurnedIsSeenInOneDirection) {
+  calibrate_stretched("as told", 30.0, 1.0, 1.0);
+  EXPECT_LT(std::abs(off_mm()), 0.0015);
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+  calibrate_stretched("larger", 30.0, 1.002, 1.002);
+  EXPECT_NEAR(off_mm(), 0.002 * 5.06, 0.0015);
+  EXPECT_NE(outcome_.verdict, Verdict::kTracking);
+  calibrate_stretched("wider", 30.0, 1.002, 1.0);
+  EXPECT_EQ(outcome_.verdict, Verdict::kTracking);
+  calibrate_stretched("longer", 30.0, 1.0, 1.002);
+  EXPECT_EQ(outcome_.verdict, Verdict::kTracking);
+}
+
+TEST_F(StretchedTemplate, OfFreePosesIsHarmedByOneDirectionAlone) {
+  calibrate_stretched("as told", {}, 1.0, 1.0);
+  EXPECT_LT(std::abs(off_mm()), 0.002);
+  calibrate_stretched("larger", {}, 1.002, 1.002);
+  EXPECT_LT(std::abs(off_mm()), 0.002);
+  for (const auto& [what, across, down] :
+       {std::tuple{"wider", 1.002, 1.0}, std::tuple{"longer", 1.0, 1.002}}) {
+    calibrate_stretched(what, {}, across, down);
+    EXPECT_GT(outcome_.fit.sigma_px, 0.035) << what;
+    EXPECT_GT(outcome_.map.rms_px, 0.12) << what;
+  }
 }
 
 TEST_F(CameraCalibration, OfALooseLensIsRefused) {
