@@ -337,5 +337,14 @@ TEST_F(SessionSettings, TellsWhatIsWrongWithASilhouette) {
   }
 }
 
+TEST_F(SessionSettings, TakesAnEflsCorrelationWithTheTool) {
+  ASSERT_EQ(
+      load(kWhole + "[tool_quality]\nid = \"a\"\nfocal_length_correlation = [0.1, 0, -0.9, 0, "
+                    "0, 0.25]\n"),
+      Messages{});
+  EXPECT_EQ(session_->tool_quality.focal_length_correlation,
+            (std::array<double, 6>{0.1, 0.0, -0.9, 0.0, 0.0, 0.25}));
+}
+
 }  // namespace
 }  // namespace tubesight::drivers
