@@ -39,8 +39,8 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known"
-      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      options="-h --help --level --tool-known --free-efl"
+      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
       ;;
     budget)
       options="-h --help"
