@@ -118,6 +118,66 @@ math::Matrix6d camera_covariance(const DockingFocal& focal, const math::Matrix6d
   return result;
 }
 
+MapUncertainty map_beside_turn(const Sensor& sensor, const CameraValues& camera,
+                               const math::Matrix6d& covariance) {
+  constexpr std::int32_t kColumns = 17;
+  constexpr std::int32_t kRows = 13;
+  using Slope = Eigen::Matrix<double, 2, 6>;
+  using Turn = Eigen::Matrix<double, 2, 3>;
+  const auto pixel_at = [&](std::int32_t i) {
+    return Eigen::Vector2d((i % kColumns) * (sensor.width_px - 1.0) / (kColumns - 1),
+                           (i / kColumns) * (sensor.height_px - 1.0) / (kRows - 1));
+  };
+  const Eigen::Vector2d scale(camera(0) * camera(1) / sensor.column_mm, camera(0) / sensor.row_mm);
+  const auto slope_at = [&](const Eigen::Vector2d& pixel) {
+    Slope slope;
+    for (int k = 0; k < 6; ++k) {
+      const double step = 1e-6 * std::max(1.0, std::abs(camera(k)));
+      const CameraValues off = step * CameraValues::Unit(k);
+      slope.col(k) = scale.cwiseProduct(ideal_of(sensor, camera + off, pixel) / (camera + off)(0) -
+                                        ideal_of(sensor, camera - off, pixel) / (camera - off)(0)) /
+                     (2.0 * step);
+    }
+    return slope;
+  };
+  // A turn theta moves the ray (x, y, 1) by theta x (x, y, 1), and its place on the plane by that
+  // less (x, y) times its third part.
+  const auto turn_at = [&](const Eigen::Vector2d& pixel) {
+    const Eigen::Vector2d p = ideal_of(sensor, camera, pixel) / camera(0);
+    Turn turn;
+    turn << -p.x() * p.y(), 1.0 + p.x() * p.x(), -p.y(), -1.0 - p.y() * p.y(), p.x() * p.y(), p.x();
+    turn.row(0) *= scale.x();
+    turn.row(1) *= scale.y();
+    return turn;
+  };
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 6> right = Eigen::Matrix<double, 3, 6>::Zero();
+  for (std::int32_t i = 0; i < kColumns * kRows; ++i) {
+    const Turn turn = turn_at(pixel_at(i));
+    normal += turn.transpose() * turn;
+    right += turn.transpose() * slope_at(pixel_at(i));
+  }
+  math::Cholesky<3> factor;
+  const bool factored = factor.factor(normal);
+  TUBESIGHT_ASSERT(factored);  // the pixels of a picture tell three turns apart
+  const Eigen::Matrix<double, 3, 6> made_up = factor.inverse() * right;
+  MapUncertainty result;
+  double squares = 0.0;
+  for (std::int32_t i = 0; i < kColumns * kRows; ++i) {
+    const Eigen::Vector2d pixel = pixel_at(i);
+    const Slope left = slope_at(pixel) - turn_at(pixel) * made_up;
+    const double variance = (left * covariance * left.transpose()).trace();
+    squares += variance;
+    if (std::sqrt(variance) > result.worst_px) {
+      result.worst_px = std::sqrt(variance);
+      result.worst_u_px = pixel.x();
+      result.worst_v_px = pixel.y();
+    }
+  }
+  result.rms_px = std::sqrt(squares / (kColumns * kRows));
+  return result;
+}
+
 math::Vector6d tool_by_focal(const DockingList& dockings, std::span<const math::Vector6d> by_focal,
                              const DockingAssumption& assumption) {
   constexpr double kStep_mm = 0.001;

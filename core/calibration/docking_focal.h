@@ -5,6 +5,8 @@
 
 #include "core/base/settings.h"
 #include "core/base/transform.h"
+#include "core/calibration/camera_calibration.h"
+#include "core/calibration/imaging.h"
 #include "core/calibration/tool_calibration.h"
 #include "core/math/small_matrix.h"
 #include "core/picture/rim.h"
@@ -42,6 +44,13 @@ struct DockingFocal {
 /// EFL found, so that they are correlated.
 [[nodiscard]] math::Matrix6d camera_covariance(const DockingFocal& focal,
                                                const math::Matrix6d& covariance);
+
+/// The uncertainty of the map from pixels to rays as map_uncertainty() tells it, but for what a
+/// turn of the camera as a whole makes up for: docking takes such a turn into the tool's axes, so
+/// that a centre that is off does little. For cameras that are used with a tool docked by
+/// themselves.
+[[nodiscard]] MapUncertainty map_beside_turn(const Sensor& sensor, const CameraValues& camera,
+                                             const math::Matrix6d& covariance);
 
 /// Derivatives of the tool's values (as of ToolCalibration) by the EFL, by those of each docking's
 /// T_sheet_camera, (tau, theta) in the sheet frame to the millimetre of EFL.

@@ -120,7 +120,7 @@ class FocalSearch {
     core::calibration::CameraValues values;
     values << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
         camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-    result.map = core::calibration::map_uncertainty(core::calibration::sensor_of(camera), values,
+    result.map = core::calibration::map_beside_turn(core::calibration::sensor_of(camera), values,
                                                     result.covariance);
     const double sigma_mm = std::sqrt(result.covariance(0, 0));
     if (!(sigma_mm <= kMostChange * camera.focal_length_mm)) {
@@ -133,8 +133,8 @@ class FocalSearch {
       result.status = ExitStatus::kJobFailed;
       drivers::print(result.message,
                      "no calibration: docked so, the EFL is known to %.3f mm and the map from "
-                     "pixels to rays to %.1f px only, expected 1 px: more dockings, or a camera "
-                     "calibrated with a template",
+                     "pixels to rays to %.1f px only, expected 1 px: more dockings, a type whose "
+                     "cameras differ less (sigma in [camera_quality]), or a template",
                      sigma_mm, result.map.rms_px);
     }
     return result;

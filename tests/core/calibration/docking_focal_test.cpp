@@ -103,6 +103,24 @@ TEST(DockingFocal, CarriesWhatIsWrongWithTheTypesOthers) {
   EXPECT_NEAR(covariance(2, 2), 4.0, 1e-12);
 }
 
+TEST(DockingFocal, OfACameraThatMayBeTurnedCountsWhatNoTurnMakesUpFor) {
+  const pose::PoseScene scene;
+  const CameraSettings& settings = scene.settings().camera;
+  CameraValues camera;
+  camera << settings.focal_length_mm, settings.horizontal_scale, settings.center_px[0],
+      settings.center_px[1], settings.distortion_per_mm2, settings.distortion2_per_mm4;
+  const Sensor sensor = sensor_of(settings);
+  math::Matrix6d centre = math::Matrix6d::Zero();
+  centre(3, 3) = 4.0;  // 2 px: a turn of 0.2 degrees, and its bend at the picture's edge
+  EXPECT_NEAR(map_uncertainty(sensor, camera, centre).rms_px, 2.3, 0.3);
+  EXPECT_LT(map_beside_turn(sensor, camera, centre).rms_px, 0.6);
+
+  math::Matrix6d focal = math::Matrix6d::Zero();
+  focal(0, 0) = 1e-4;  // no turn makes a picture larger
+  const double whole = map_uncertainty(sensor, camera, focal).rms_px;
+  EXPECT_NEAR(map_beside_turn(sensor, camera, focal).rms_px, whole, 0.05 * whole);
+}
+
 TEST(DockingFocal, MovesTheTipByItsShareOfTheDistance) {
   DockingList dockings;
   Docking docking;
