@@ -1,6 +1,7 @@
 #include "board/bench/calibrate_arguments.h"
 
 #include <cstdio>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -28,7 +29,8 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
   calibrate
       .add_option(
           "--picture", base.picture,
-          "Of a base, or of zones: draw the sheet with the pairs and how well the tool is known")
+          "Draw what was found: of a tool the docked picture, of a base or zones the sheet with "
+          "the pairs and how well the tool is known")
       ->option_text("PICTURE.png");
 }
 
@@ -42,10 +44,9 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
           ->expected(2, 1000);
   calibrate
       .add_option("--check", tool.checks,
-                  "The same, compared with what the dockings give and not used")
+                  "The same, compared with what the dockings or points give and not used")
       ->option_text("ROW,COLUMN...")
-      ->expected(2, 1000)
-      ->needs(dock);
+      ->expected(2, 1000);
   calibrate
       .add_option("--dock-height-mm", tool.height_mm,
                   "Plane of the tube-ends above the docked tip; default 0")
@@ -68,8 +69,25 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
       .add_option("--start", tool.starts,
                   "Tube-ends in the pictures, as of pose: once for all, or for each docking and "
                   "check; default: [start]")
-      ->option_text("\"R,C,U,V;...\"")
+      ->option_text("\"R,C,U,V;...\"");
+  calibrate
+      .add_flag("--free-efl", tool.free_focal,
+                "The camera's EFL is found, too; its other parameters are its type's")
       ->needs(dock);
+  calibrate
+      .add_option("--points", tool.points,
+                  "In place of dockings: points on the guidetube, where they are in the tool frame "
+                  "and in the picture")
+      ->option_text("POINTS.csv");
+  calibrate
+      .add_option("--guidetube-mm", tool.guidetube,
+                  "The guidetube's diameter and visible length: its silhouette is stored, too")
+      ->option_text("D,L");
+}
+
+bool is_for_tool(const CalibrateToolOptions& tool) {
+  return !tool.checks.empty() || !tool.starts.empty() || !tool.points.empty() ||
+         !tool.guidetube.empty();
 }
 
 void add_template_options(CLI::App& calibrate, CalibrateTemplateOptions& dots) {
@@ -172,6 +190,15 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
   if (arguments.what != "links" && !arguments.arm.empty()) {
     std::fprintf(stderr, "--arm: of links alone, expected calibrate links\n");
     return ExitStatus::kWrongInput;
+  }
+  if (arguments.what != "tool" && arguments.tool.docks.empty() && is_for_tool(arguments.tool)) {
+    std::fprintf(stderr,
+                 "--check, --start, --points, --guidetube-mm: of a tool alone, expected calibrate "
+                 "tool\n");
+    return ExitStatus::kWrongInput;
+  }
+  if (arguments.what == "tool") {
+    arguments.tool.picture = std::exchange(arguments.base.picture, {});
   }
   if (arguments.what == "links") {
     return run_calibrate_links({arguments.file, arguments.arm, arguments.out});

@@ -39,10 +39,10 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known"
+      options="-h --help --level --tool-known --free-efl"
       taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm"
-      taking+=" --dock-offset-mm --heading-deg --start --rows --columns --spacing-mm"
-      taking+=" --row-spacing-mm --dot-mm --lattice --dots --paper"
+      taking+=" --dock-offset-mm --heading-deg --start --points --guidetube-mm --rows --columns"
+      taking+=" --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
     budget)
       options="-h --help"

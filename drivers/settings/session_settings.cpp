@@ -39,6 +39,8 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
   read_table(document, "base", false, [&](TableReader& table) { read_base(table); });
   read_table(document, "base_quality", false,
              [&](TableReader& table) { read_quality(table, session.base_quality); });
+  read_table(document, "silhouette", false,
+             [&](TableReader& table) { read_silhouette(table, session.silhouette); });
 }
 
 }  // namespace
@@ -56,6 +58,7 @@ void read_session(SettingsDocument& document, NeededTables needed, SessionFile& 
   session.camera_quality = {};
   session.tool_quality = {};
   session.base_quality = {};
+  session.silhouette = {};
   read_all(document, needed, session);
   session.has_tool = document.find("tool") != nullptr;
   session.has_start = document.find("start") != nullptr;

@@ -9,6 +9,7 @@
 #include "drivers/files/messages.h"
 #include "drivers/settings/session_tables.h"
 #include "drivers/settings/settings_document.h"
+#include "drivers/settings/silhouette_settings.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
@@ -36,12 +37,13 @@ struct SessionFile {
   CalibrationQuality camera_quality;
   CalibrationQuality tool_quality;
   CalibrationQuality base_quality;
+  SilhouetteSettings silhouette;  ///< of the guidetube; kept for whoever watches it
 };
 
 /// The tables of a session.
-inline constexpr std::array<std::string_view, 11> kSessionTables = {
-    "camera", "camera_quality", "tool",         "tool_quality", "tubesheet",   "start",
-    "motion", "edges",          "verification", "base",         "base_quality"};
+inline constexpr std::array<std::string_view, 12> kSessionTables = {
+    "camera", "camera_quality", "tool",         "tool_quality", "tubesheet",    "start",
+    "motion", "edges",          "verification", "base",         "base_quality", "silhouette"};
 
 /// Reads the session's tables of a document that may have others, too; mistakes go to its problems.
 /// Everything in `session` is replaced.

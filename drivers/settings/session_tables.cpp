@@ -264,6 +264,11 @@ void read_quality(TableReader& table, CalibrationQuality& quality) {
   if (table.has("correlation")) {
     take_matrix(table.list("correlation", false, "a list of lists"), quality.correlation);
   }
+  quality.focal_length_correlation = {};
+  if (!take_numbers(table.list("focal_length_correlation", false, "a list of numbers"),
+                    quality.focal_length_correlation)) {
+    quality.focal_length_correlation = {};
+  }
 }
 
 }  // namespace tubesight::drivers

@@ -48,6 +48,8 @@ struct CalibrationQuality {
   std::array<double, 6> sigma{};
   /// Row by row; the identity unless `correlation` is there as six lists of six numbers.
   std::array<double, 36> correlation{};
+  /// Of a tool whose docking told the camera's EFL, too: of its six values with that; else 0.
+  std::array<double, 6> focal_length_correlation{};
 };
 
 /// Which camera it was: `serial` and `model`, where they stand.

@@ -163,6 +163,7 @@ class PoseRun {
     calibrations_.camera_sigma = file_.camera_quality.sigma;
     calibrations_.tool_sigma = file_.tool_quality.sigma;
     calibrations_.camera_correlation = matrix_of(file_.camera_quality.correlation);
+    calibrations_.focal_length_correlation = file_.tool_quality.focal_length_correlation;
     calibrations_.tool_correlation = matrix_of(file_.tool_quality.correlation);
     correction_.limit_mm = options_.limit_mm;
     if (!options_.correct.empty() && (!parse_address(options_.correct, correction_.tube) ||

@@ -1,5 +1,7 @@
 #include "drivers/settings/session_settings.h"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -294,6 +296,54 @@ TEST_F(SessionSettings, CountsWhatItDoesNotTell) {
 
   ASSERT_EQ(messages.size(), 51u);
   EXPECT_EQ(messages.back(), "s.toml: and 10 more mistakes");
+}
+
+TEST_F(SessionSettings, KeepsTheGuidetubesSilhouette) {
+  SilhouetteSettings told;
+  told.diameter_mm = 18.2;
+  told.length_mm = 33.5;
+  told.edges[0] = {{{270.125, 370.25}, {266.5, 479.0}}, 0.125, true};
+  told.edges[1] = {{}, 0.75, false};
+  told.edges[2] = {{{352.0, 371.5}, {358.25, 479.0}}, 0.25, true};
+  const std::string text = silhouette_text(told);
+
+  ASSERT_EQ(load(kWhole + text), Messages{});
+
+  const SilhouetteSettings& read = session_->silhouette;
+  EXPECT_EQ(read.diameter_mm, 18.2);
+  EXPECT_EQ(read.length_mm, 33.5);
+  for (std::size_t i = 0; i < told.edges.size(); ++i) {
+    EXPECT_EQ(read.edges[i].points_px, told.edges[i].points_px) << i;
+    EXPECT_EQ(read.edges[i].sigma_px, told.edges[i].sigma_px) << i;
+    EXPECT_EQ(read.edges[i].measured, told.edges[i].measured) << i;
+  }
+  ASSERT_EQ(load(kWhole), Messages{});
+  EXPECT_EQ(session_->silhouette.diameter_mm, 0.0) << "of the file before";
+}
+
+TEST_F(SessionSettings, TellsWhatIsWrongWithASilhouette) {
+  const std::string table =
+      "[silhouette]\ndiameter_mm = 0.5\nlength_mm = 33\nleft_px = [[1, 2], [3]]\n"
+      "right_px = [[1, -2]]\nmeasured = [\"top\"]\nsigma_px = [0.1, 0.1]\n";
+  const Messages messages = load(kWhole + table);
+
+  ASSERT_EQ(messages.size(), 5u);
+  const std::string words = messages[0] + messages[1] + messages[2] + messages[3] + messages[4];
+  for (const char* const part :
+       {"silhouette.diameter_mm: 0.5, expected a number from 1 to 200 mm",
+        "expected [u, v], each from 0 to 4096 px", "the text 'top', expected \"left\", \"tip\"",
+        "silhouette.sigma_px: a list of 2, expected 3 times a number"}) {
+    EXPECT_NE(words.find(part), std::string::npos) << part << "\n" << words;
+  }
+}
+
+TEST_F(SessionSettings, TakesAnEflsCorrelationWithTheTool) {
+  ASSERT_EQ(
+      load(kWhole + "[tool_quality]\nid = \"a\"\nfocal_length_correlation = [0.1, 0, -0.9, 0, "
+                    "0, 0.25]\n"),
+      Messages{});
+  EXPECT_EQ(session_->tool_quality.focal_length_correlation,
+            (std::array<double, 6>{0.1, 0.0, -0.9, 0.0, 0.0, 0.25}));
 }
 
 }  // namespace

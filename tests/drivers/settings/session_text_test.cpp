@@ -157,7 +157,7 @@ TEST(SessionText, WritesEveryTableThatTheReaderKnowsButWhatACalibrationSays) {
 
   for (const std::string& table : expected_words(messages.front())) {
     const bool calibrated = table == "camera_quality" || table == "tool_quality" ||
-                            table == "base" || table == "base_quality";
+                            table == "base" || table == "base_quality" || table == "silhouette";
     EXPECT_EQ(kEveryKey.find("[" + table + "]\n") == std::string::npos, calibrated) << table;
   }
 }

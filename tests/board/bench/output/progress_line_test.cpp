@@ -87,5 +87,16 @@ TEST(ProgressLine, IsErasedToItsLastCharacter) {
             "\r" + first + "\r" + second + "\r" + std::string(first.size(), ' ') + "\r");
 }
 
+TEST(ProgressLine, SaysTheWordsOfAnyJobOverThoseBefore) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, "docking 1 of 12");
+  line.update(kStart + seconds(1), "docking 10 of 12");
+  line.update(kStart + seconds(2), "check");
+
+  // The shorter one is padded to what stood there.
+  EXPECT_EQ(stream.text(), "\rdocking 10 of 12\rcheck           ");
+}
+
 }  // namespace
 }  // namespace tubesight::board
