@@ -9,6 +9,9 @@
 #include "drivers/scenario/scenario_keys.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
+#include "drivers/settings/session_keys.h"
+#include "drivers/settings/session_tables.h"
+#include "drivers/settings/session_text.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -24,8 +27,8 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
     table.complain(kEventTime.key, "after the recording's end, expected within it");
   }
   if (!table.word(kEventKindKey, kEventWords, kind)) {
-    for (const std::string_view key :
-         {kClaimedTubeKey, kLampCommandKey.key, kPickPlaceKey.key, kClickOnKey, kOffCenterKey}) {
+    for (const std::string_view key : {kClaimedTubeKey, kLampCommandKey.key, kPickPlaceKey.key,
+                                       drivers::kClicksKey, kClickOnKey, kOffCenterKey}) {
       table.ignore(key);
     }
     return;
@@ -57,12 +60,18 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
       break;
     }
     case ToldKind::kStart: {
+      event.origin = core::EventOrigin::kOperator;
+      if (table.has(drivers::kClicksKey)) {
+        core::StartSettings start;
+        drivers::read_clicks(table, {&told.camera, &told.tubesheet}, start);
+        event.content = core::Start{start.tubes, {}, false};
+        break;
+      }
       ClickWish wish;
       wish.at_s = told_event.at_s;
       wish.event = static_cast<std::ptrdiff_t>(to.events->size());
       read_click_wish(table, told.tubesheet, wish);
       to.wishes->push_back(wish);
-      event.origin = core::EventOrigin::kOperator;
       event.content = core::Start{};
       break;
     }
@@ -107,7 +116,10 @@ void write_event(drivers::TomlWriter& toml, const drivers::ScenarioEvent& told) 
                  },
                  [&](const core::PoseRequest& /*request*/) { begin(ToldKind::kPose); },
                  [&](const core::Acknowledge& /*seen*/) { begin(ToldKind::kAcknowledge); },
-                 [&](const core::Start& start) { never(start); },
+                 [&](const core::Start& start) {
+                   begin(ToldKind::kStart);
+                   drivers::write_clicks(toml, start.tubes);
+                 },
                  [&](const core::PoseResult& result) { never(result); },
              },
              told.event.content);

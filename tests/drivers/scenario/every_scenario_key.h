@@ -288,6 +288,39 @@ for_s = 0.125
 share = 0.25
 
 [[fault]]
+kind = "blots"
+at_s = 0.125
+for_s = 0.125
+share = 0.0625
+
+[[fault]]
+kind = "reflections"
+at_s = 0.125
+for_s = 0.125
+share = 0.0625
+
+[[fault]]
+kind = "ghost"
+at_s = 0.125
+for_s = 0.125
+share = 0.25
+
+[[fault]]
+kind = "black-level"
+at_s = 0.125
+for_s = 0.125
+level = 32.0
+share = 0.75
+
+[[fault]]
+kind = "covered"
+at_s = 0.125
+for_s = 0.125
+level = 170.0
+share = 0.25
+left = true
+
+[[fault]]
 kind = "frozen"
 at_s = 0.125
 for_s = 0.125
