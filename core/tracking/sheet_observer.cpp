@@ -86,9 +86,9 @@ void judge_deviations(const TrackingModel<S>& model, const NormalEquations<S>& e
 }  // namespace
 
 template <Scalar S>
-void SheetObserver<S>::begin() {
+void SheetObserver<S>::begin(const LightLevels& light) {
   record_.plugs.clear();
-  record_.light = first_light<S>(*model_);
+  record_.light = light;
 }
 
 template <Scalar S>
@@ -196,12 +196,6 @@ Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectatio
   record_.light = light;
   record_.plugs = plugs;
   return seen;
-}
-
-template <Scalar S>
-StartAnswer SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
-                                         ClickSearch search, SheetPose<S>& pose) {
-  return find_start_pose<S>(*model_, *map_, field, clicks, search, record_.light, pose);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(SheetObserver)

@@ -87,7 +87,9 @@ class SheetObserver {
       : model_(&model), map_(&map) {}
 
   /// A new start: what was learnt of light and plugs is forgotten.
-  void begin();
+  void begin() { begin(first_light<S>(*model_)); }
+  /// In this light.
+  void begin(const LightLevels& light);
 
   /// No tube-ends are seen in this field, or none that may be told.
   void clear_field() { record_.begin_field(); }
@@ -98,10 +100,6 @@ class SheetObserver {
   /// observe() that learns nothing: for a picture that is not believed. A number that leaves its
   /// range costs this look alone: it shows nothing then.
   [[nodiscard]] Observation<S> glance(const FieldView& field, const Expectation<S>& expected);
-
-  /// The operator's clicks as a rough pose: find_start_pose() with this observer's light.
-  [[nodiscard]] StartAnswer find_start(const FieldView& field, const StartClickList& clicks,
-                                       ClickSearch search, SheetPose<S>& pose);
 
   /// Whether the field looked at last fits the settings' lists better with other addresses.
   [[nodiscard]] bool fits_other_addresses() const {
