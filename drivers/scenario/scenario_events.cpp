@@ -18,6 +18,22 @@ namespace {
 
 using drivers::TableReader;
 
+// With clicks, or a wish for some.
+core::Start read_clicked_start(TableReader& table, const core::SessionSettings& told, double at_s,
+                               ScenarioEvents& to) {
+  if (table.has(drivers::kClicksKey)) {
+    core::StartSettings start;
+    drivers::read_clicks(table, {&told.camera, &told.tubesheet}, start);
+    return {start.tubes, {}, false};
+  }
+  ClickWish wish;
+  wish.at_s = at_s;
+  wish.event = static_cast<std::ptrdiff_t>(to.events->size());
+  read_click_wish(table, told.tubesheet, wish);
+  to.wishes->push_back(wish);
+  return {};
+}
+
 void read_event(TableReader& table, const core::SessionSettings& told, double length_s,
                 ScenarioEvents& to) {
   drivers::ScenarioEvent told_event;
@@ -59,22 +75,10 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
       event.content = pick;
       break;
     }
-    case ToldKind::kStart: {
+    case ToldKind::kStart:
       event.origin = core::EventOrigin::kOperator;
-      if (table.has(drivers::kClicksKey)) {
-        core::StartSettings start;
-        drivers::read_clicks(table, {&told.camera, &told.tubesheet}, start);
-        event.content = core::Start{start.tubes, {}, false};
-        break;
-      }
-      ClickWish wish;
-      wish.at_s = told_event.at_s;
-      wish.event = static_cast<std::ptrdiff_t>(to.events->size());
-      read_click_wish(table, told.tubesheet, wish);
-      to.wishes->push_back(wish);
-      event.content = core::Start{};
+      event.content = read_clicked_start(table, told, told_event.at_s, to);
       break;
-    }
     case ToldKind::kPose: event.content = core::PoseRequest{}; break;
     case ToldKind::kAcknowledge:
       event.origin = core::EventOrigin::kOperator;

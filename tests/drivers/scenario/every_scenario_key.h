@@ -3,9 +3,8 @@
 #include <string>
 
 namespace tubesight::drivers {
-
-/// Every key that is written, none at its default, as scenario_text() writes it. The true numbers
-/// are sums of powers of two, so that the errors come back to the last bit.
+/// Every key, none at its default, as scenario_text() writes it. True numbers are sums of powers of
+/// two: errors come back to the last bit.
 inline const std::string kEveryKey = R"toml(format = 1
 
 [scenario]
