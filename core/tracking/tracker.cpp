@@ -186,7 +186,11 @@ template <Scalar S, typename Margin>
 void Tracker<S, Margin>::remember_sites() {
   const FieldRecord<S>& record = observer_.record();
   for (const auto& tube : record.measured) {
-    sites_.saw_tube_end(tube.address);
+    if (tube.used) {
+      sites_.saw_tube_end(tube.address);
+    } else {
+      sites_.saw_dark(tube.address);  // a rim off the plane: a plug may have one
+    }
   }
   for (const TubeAddress address : record.sites.dark) {
     sites_.saw_dark(address);
