@@ -25,7 +25,8 @@ struct Expectation {
   SheetPose<S> pose{};       ///< the predicted one
   Mm<S> reach_mm{};          ///< how far the tool may be from where it puts it
   bool from_motion = false;  ///< turn and height are as predicted, but for what a field may change
-  bool confirm_all = false;  ///< half of the tube-ends looked at must be there
+  bool confirm_all =
+      false;  ///< the tube-ends looked at must be there: half, or many where it is dark
 };
 
 /// How well height, heading and lean are known, one standard deviation each.
@@ -119,6 +120,8 @@ class SheetObserver {
 
  private:
   [[nodiscard]] bool outweighs_bright(const PoseFit<S>& fit) const;
+  [[nodiscard]] FindingCount measure_in_any_light(const FieldView& field, std::int32_t range_px,
+                                                  const PosePrior<S>& prior, Observation<S>& seen);
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
                                      const PosePrior<S>& prior, Observation<S>& seen);
 
