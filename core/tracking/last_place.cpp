@@ -35,24 +35,24 @@ void LastPlace<S>::believe(const Field& field, TubeAddress anchor, const Vector2
 }
 
 template <Scalar S>
-bool LastPlace<S>::refutes(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                           const Field& field, const StartClickList& clicks) const {
+bool LastPlace<S>::refutes(const Field& field, StartSearch<S>& search) const {
   if (!known_ || field.status != FieldStatus::kGood) {
     return false;
   }
   // A start may come of either search.
-  for (const ClickSearch search : {ClickSearch::kBisected, ClickSearch::kRound}) {
-    static_cast<void>(take_overflow_flag());    // of a search that showed no pose
-    LightLevels light = first_light<S>(model);  // a track's is left alone
-    SheetPose<S> pose;
-    if (!find_start_pose<S>(model, map, field.pixels, clicks, search, light, pose).taken()) {
+  const TrackingModel<S>& model = search.model();
+  static_cast<void>(take_overflow_flag());  // of what came before
+  for (const ClickSearch kind : {ClickSearch::kBisected, ClickSearch::kRound}) {
+    const auto& clicked = search.by(kind);
+    if (!clicked.answer.taken() || clicked.overflowed) {
       continue;
     }
-    const auto tool = find_tool_point<S>(model, pose);
-    if (!tool || take_overflow_flag()) {
+    const auto tool = find_tool_point<S>(model, clicked.pose);
+    if (take_overflow_flag() || !tool) {
       continue;
     }
-    const Vector2<Mm<S>> way = model.lattice.offset(anchor_, pose.anchor) + tool->local - local_;
+    const Vector2<Mm<S>> way =
+        model.lattice.offset(anchor_, clicked.pose.anchor) + tool->local - local_;
     const std::int64_t way_q4 = to_scaled(plane_length(way), 4);
     // A way that leaves the range of numbers is a long one.
     if (take_overflow_flag() || way_q4 > reach_q4<S>(model, field.mid_exposure - time_)) {

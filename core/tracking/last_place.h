@@ -24,8 +24,7 @@ class LastPlace {
   /// Whether these clicks into the field put the tool where it cannot have come since: farther than
   /// the greatest speed, and half a lattice step for what clicks leave open. False where they show
   /// no pose at all, which is another refusal. Where time goes back, none has passed.
-  [[nodiscard]] bool refutes(const TrackingModel<S>& model, const tubesheet::SheetMap& map,
-                             const Field& field, const StartClickList& clicks) const;
+  [[nodiscard]] bool refutes(const Field& field, StartSearch<S>& search) const;
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>

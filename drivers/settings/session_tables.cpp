@@ -92,8 +92,8 @@ void read_click(TableReader& table, std::size_t index, const toml::node& entry,
     return;
   }
   const std::size_t before = table.problems().size();
-  TableReader reader(*click, table.place_of(entry), "start.tubes[" + std::to_string(index) + "]",
-                     table.problems());
+  TableReader reader(*click, table.place_of(entry),
+                     table.name() + ".tubes[" + std::to_string(index) + "]", table.problems());
   core::StartPoint point;
   const core::CameraSettings* const camera = context.camera;
   const double most =

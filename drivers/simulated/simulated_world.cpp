@@ -8,6 +8,7 @@
 
 #include "core/tubesheet/sheet_places.h"
 #include "drivers/simulated/dice.h"
+#include "drivers/simulated/spoilt_picture.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -342,6 +343,7 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
   }
   const core::CameraSettings& camera = scenario_->scene.camera;
   renderer_.render(exposure, {frame_.data(), camera.width_px, camera.height_px, camera.width_px});
+  spoil(field, faults, derived_seed(exposure.noise_seed, 2));
   if (faults.emi_share > 0.0) {
     disturb_lines(field, faults.emi_share, faults.emi_amplitude, dice);
   }

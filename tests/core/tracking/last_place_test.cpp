@@ -34,7 +34,8 @@ class LastPlaceOf : public ObservedScene<S> {
     LastPlace<S> last;
     last.believe(field, kTube, {});
     field.mid_exposure += std::chrono::milliseconds(17);
-    return last.refutes(scene_.model, *scene_.map, field, clicks);
+    StartSearch<S> search(scene_.model, *scene_.map, field.pixels, clicks);
+    return last.refutes(field, search);
   }
 };
 TYPED_TEST_SUITE(LastPlaceOf, Scalars);
