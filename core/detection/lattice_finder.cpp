@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/assert.h"
+#include "core/detection/expected_element.h"
 #include "core/detection/spot_weight.h"
 
 namespace tubesight::core::detection {
@@ -17,22 +18,9 @@ constexpr std::array kShares = {0.5, 0.25};
 constexpr double kStranger = 0.3;
 constexpr double kNewcomer = 0.15;
 
-// Its half axes are these shares of those expected, and a fraction of a pixel: a plug's dark inside
-// is smaller, a small dot's form uncertain.
-constexpr double kLeastForm = 0.75;
-constexpr double kMostForm = 1.3;
-constexpr double kForm_px = 0.4;
-
 // An edge measured around a spot has the spot's own form to this.
 constexpr double kLeastOfSpot = 0.85;
 constexpr double kMostOfSpot = 1.2;
-
-// Elements are looked for this far from an edge expected, in shares of the shorter half axis.
-constexpr double kFirstReach = 0.2;
-constexpr double kLeastReach_px = 2.0;
-constexpr double kMostReach_px = 12.0;
-// Once it is found.
-constexpr double kFineReach_px = 2.5;
 
 // Below this half axis an edge is mostly blur, and the spot is weighed.
 constexpr double kLeastMeasured_px = 6.5;
@@ -45,64 +33,6 @@ constexpr double kFaint = 0.25;
 
 // Nothing smaller is looked for where no spot was found.
 constexpr double kLeastLookedFor_px = 2.0;
-
-// Of an element that no spot showed, this share of the edge must be seen, or, where it is too small
-// for that, this share of its neighbour's contrast.
-constexpr double kLeastShare = 0.5;
-constexpr double kLeastContrast = 0.5;
-
-/// From one edge to the next, by the shorter step in radii.
-double room_of(const Ellipse& ellipse, const Steps& steps) {
-  const double shorter = std::min(steps.column.norm(), steps.row.norm());
-  return std::max(1.0, (shorter - 2.0) * half_axes(ellipse).y());
-}
-
-/// The half axes of an ellipse where another one is the unit circle.
-Eigen::Vector2d axes_by(const Ellipse& expected, const Ellipse& ellipse) {
-  const Eigen::Matrix2d straight = root_of(expected.shape_px2).inverse();
-  return half_axes({{0.0, 0.0}, straight * ellipse.shape_px2 * straight});
-}
-
-/// Whether an ellipse stands where the map expects an element and has its size and form.
-bool fits(const LocalMap& map, const Ellipse& ellipse, const Steps& steps, double gate) {
-  const Ellipse expected = map.element(steps);
-  if (!(half_axes(expected).y() > 0.0)) {
-    return false;
-  }
-  const double off = (map.center_of(ellipse) - map.to_pixel(Eigen::Vector2d::Zero())).norm();
-  const Eigen::Vector2d axes = axes_by(expected, ellipse);
-  const double slack = kForm_px / half_axes(expected).y();
-  return off < gate * map.shorter_step_px() && axes.x() < kMostForm + slack &&
-         axes.y() > kLeastForm - slack;
-}
-
-/// Measures an element where its ellipse is expected: once from afar, once from near.
-bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps,
-                   ElementScratch& scratch, LatticeElement& element) {
-  const Ellipse expected = element.ellipse;
-  const double room = room_of(expected, steps);
-  const double reach =
-      std::clamp(kFirstReach * half_axes(expected).y(), kLeastReach_px, kMostReach_px);
-  ElementEdge first;
-  ElementEdge edge;
-  if (!measure_element(stretched, expected, {reach, room}, scratch, first) ||
-      !measure_element(stretched, first.ellipse, {kFineReach_px, room}, scratch, edge)) {
-    return false;
-  }
-  element.ellipse = edge.ellipse;
-  element.share = edge.share;
-  element.rms_px = edge.rms_px;
-  return edge.share >= kLeastShare;
-}
-
-/// The same for an element too small for that; it must be as dark as its neighbour.
-bool look_for_spot(const picture::AveragedPicture& stretched, const Ellipse& neighbour,
-                   const Steps& steps, double least_contrast, LatticeElement& element) {
-  Ellipse other = neighbour;
-  const double usual = weigh_spot(stretched, room_of(other, steps), other);
-  const double contrast = weigh_spot(stretched, room_of(element.ellipse, steps), element.ellipse);
-  return usual > 0.0 && contrast > std::max(least_contrast, kLeastContrast * usual);
-}
 
 /// The picture with dark elements and its darkest at zero.
 picture::AveragedPicture stretch(const picture::AveragedPicture& picture, bool dark,
