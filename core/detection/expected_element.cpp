@@ -34,16 +34,18 @@ Eigen::Vector2d axes_by(const Ellipse& expected, const Ellipse& ellipse) {
   return half_axes({{0.0, 0.0}, straight * ellipse.shape_px2 * straight});
 }
 
-bool fits(const LocalMap& map, const Ellipse& ellipse, const Steps& steps, double gate) {
+double strangeness(const LocalMap& map, const Ellipse& ellipse, const Steps& steps, double gate) {
   const Ellipse expected = map.element(steps);
   if (!(half_axes(expected).y() > 0.0)) {
-    return false;
+    return kMostStrange;
   }
   const double off = (map.center_of(ellipse) - map.to_pixel(Eigen::Vector2d::Zero())).norm();
   const Eigen::Vector2d axes = axes_by(expected, ellipse);
   const double slack = kForm_px / half_axes(expected).y();
-  return off < gate * map.shorter_step_px() && axes.x() < kMostForm + slack &&
-         axes.y() > kLeastForm - slack;
+  const double strange =
+      std::max({off / (gate * map.shorter_step_px()), axes.x() / (kMostForm + slack),
+                (kLeastForm - slack) / axes.y()});
+  return strange < kMostStrange ? strange : kMostStrange;  // not a number, too
 }
 
 bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps,
@@ -56,6 +58,19 @@ bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps
   ElementEdge edge;
   if (!measure_element(stretched, expected, {reach, room}, scratch, first) ||
       !measure_element(stretched, first.ellipse, {kFineReach_px, room}, scratch, edge)) {
+    return false;
+  }
+  element.ellipse = edge.ellipse;
+  element.share = edge.share;
+  element.rms_px = edge.rms_px;
+  return edge.share >= kLeastShare;
+}
+
+bool measure_spot(const picture::AveragedPicture& stretched, const Steps& steps,
+                  ElementScratch& scratch, LatticeElement& element) {
+  const double room = room_of(element.ellipse, steps);
+  ElementEdge edge;
+  if (!measure_element(stretched, element.ellipse, {kFineReach_px, room}, scratch, edge)) {
     return false;
   }
   element.ellipse = edge.ellipse;

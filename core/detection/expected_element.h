@@ -22,14 +22,21 @@ inline constexpr double kLeastShare = 0.5;
 /// The half axes of an ellipse where another one is the unit circle.
 [[nodiscard]] Eigen::Vector2d axes_by(const Ellipse& expected, const Ellipse& ellipse);
 
-/// Whether an ellipse stands where the map expects an element and has its size and form. `gate` is
-/// in shares of the shorter step.
-[[nodiscard]] bool fits(const LocalMap& map, const Ellipse& ellipse, const Steps& steps,
-                        double gate);
+/// How far an ellipse is from where the map expects an element, and from its size and form: above 1
+/// it is none. `gate` is in shares of the shorter step.
+[[nodiscard]] double strangeness(const LocalMap& map, const Ellipse& ellipse, const Steps& steps,
+                                 double gate);
+
+/// Of what cannot be an element at all.
+inline constexpr double kMostStrange = 1e9;
 
 /// Measures an element where its ellipse is expected: once from afar, once from near.
 [[nodiscard]] bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps,
                                  ElementScratch& scratch, LatticeElement& element);
+
+/// The same where a spot shows it: once, from near.
+[[nodiscard]] bool measure_spot(const picture::AveragedPicture& stretched, const Steps& steps,
+                                ElementScratch& scratch, LatticeElement& element);
 
 /// The same for an element too small for that; it must be as dark as its neighbour.
 [[nodiscard]] bool look_for_spot(const picture::AveragedPicture& stretched,
