@@ -10,6 +10,7 @@
 
 #include "board/bench/look/look_text.h"
 #include "core/tubesheet/sheet_places.h"
+#include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_checks.h"
 
@@ -44,21 +45,21 @@ std::string clicked_text(const PictureStart& click) {
          drivers::point_text({click.u_px, click.v_px});
 }
 
-core::TubesheetSettings& make_relative(core::TubesheetSettings& sheet) {
+/// The address that the middle tube gets: (0, 0), or one beside it where the numbering has none.
+TubeAddress middle_address(const core::TubesheetSettings& sheet) {
+  const auto at = core::tubesheet::center_mm(sheet, {0, 0});
+  return core::tubesheet::nearest_address(sheet, at);
+}
+
+void make_relative(core::TubesheetSettings& sheet) {
   constexpr std::int32_t kFar = 200;
   sheet.rows = {-kFar, kFar};
   sheet.columns = {-kFar, kFar};
   sheet.missing.clear();
   sheet.plugged.clear();
   sheet.origin_mm = {};
-  if (sheet.addresses == core::AddressParity::kOddSum) {
-    sheet.origin_mm = {-sheet.column_step_mm[0], -sheet.column_step_mm[1]};
-  }
-  return sheet;
-}
-
-TubeAddress middle_address(const core::TubesheetSettings& sheet) {
-  return {0, sheet.addresses == core::AddressParity::kOddSum ? 1 : 0};
+  const auto center = core::tubesheet::center_mm(sheet, middle_address(sheet));
+  sheet.origin_mm = {-center[0], -center[1]};
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ class ColdStart {
   [[nodiscard]] ColdTubes find(const core::picture::AveragedPicture& picture,
                                const std::vector<core::pose::PictureStart>& clicks);
 
-  /// Tube-ends around the one nearest to the picture's middle, which is given the address (0, 0),
-  /// or (0, 1) where that has none, and stands at (0, 0) mm. Which of the readings is meant nobody
-  /// knows: the one whose heading is nearest to the one given, or to 0. The settings' sheet is
+  /// Tube-ends around the one nearest to the picture's middle, which is given the address (0, 0), or
+  /// one beside it where the numbering has none, and stands at (0, 0) mm. Which of the readings is
+  /// meant nobody knows: the one whose heading is nearest to the one given, or to 0. The sheet is
   /// relative_sheet().
   [[nodiscard]] ColdTubes find_middle(const core::picture::AveragedPicture& picture);
 

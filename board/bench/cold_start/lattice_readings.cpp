@@ -66,20 +66,20 @@ bool agree(const SheetSteps& sheet, const core::detection::Steps& found, double 
                   angle_between(found.column, found.row)) < kAngle_rad;
 }
 
-/// Whether steps lead to every tube, or, where odd rows are shifted, to those of every other row:
-/// a lattice of every other tube is none that a picture shows.
-bool leave_out_none(const SheetSteps& steps, const core::TubesheetSettings& sheet) {
-  const double cell = std::abs(sheet.row_step_mm[0] * sheet.column_step_mm[1] -
-                               sheet.row_step_mm[1] * sheet.column_step_mm[0]) *
-                      (sheet.addresses == core::AddressParity::kAll ? 1.0 : 2.0);
-  const double most = sheet.odd_row_shift != 0.0 ? 2.0 : 1.0;
-  return cross(steps.column_mm, steps.row_mm) < 1.01 * most * cell;
+/// Whether steps lead to every tube of a kind: a lattice of every other one is none that a picture
+/// shows.
+bool leave_out_none(const SheetSteps& steps, TubeAddress address,
+                    const core::pose::PoseModel& model) {
+  const auto& basis = model.lattice.parameters().basis;
+  const Eigen::Vector2d here = model.center_mm(address);
+  const Eigen::Vector2d a = model.center_mm(core::tubesheet::sum(address, basis[0])) - here;
+  const Eigen::Vector2d b = model.center_mm(core::tubesheet::sum(address, basis[1])) - here;
+  return cross(steps.column_mm, steps.row_mm) < 1.01 * std::abs(cross(a, b));
 }
 
 /// All pairs of steps of the sheet that look like the lattice's.
 std::vector<SheetSteps> find_steps(const core::detection::Steps& found, TubeAddress address,
-                                   const core::pose::PoseModel& model,
-                                   const core::TubesheetSettings& sheet) {
+                                   const core::pose::PoseModel& model) {
   std::vector<Eigen::Vector2d> ways;
   for (std::int32_t row = -kReach; row <= kReach; ++row) {
     for (std::int32_t column = -kReach; column <= kReach; ++column) {
@@ -92,7 +92,8 @@ std::vector<SheetSteps> find_steps(const core::detection::Steps& found, TubeAddr
   std::vector<SheetSteps> steps;
   for (const Eigen::Vector2d& column : ways) {
     for (const Eigen::Vector2d& row : ways) {
-      if (agree({column, row}, found, model.bore_mm) && leave_out_none({column, row}, sheet)) {
+      if (agree({column, row}, found, model.bore_mm) &&
+          leave_out_none({column, row}, address, model)) {
         steps.push_back({column, row});
       }
     }
@@ -180,7 +181,7 @@ std::vector<LatticeReading> find_readings(const FoundLattice& found, std::int32_
                                           const core::TubesheetSettings& sheet) {
   std::vector<LatticeReading> readings;
   double best = kMostOfStep * step_px(found);
-  for (const SheetSteps& steps : find_steps(found.steps, address, model, sheet)) {
+  for (const SheetSteps& steps : find_steps(found.steps, address, model)) {
     LatticeReading reading;
     const auto from = core::tubesheet::center_mm(sheet, address);
     reading.column_mm = steps.column_mm;
