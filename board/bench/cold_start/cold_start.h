@@ -46,10 +46,10 @@ class ColdStart {
   [[nodiscard]] ColdTubes find(const core::picture::AveragedPicture& picture,
                                const std::vector<core::pose::PictureStart>& clicks);
 
-  /// Tube-ends around the one nearest to the picture's middle, which is given the address (0, 0), or
-  /// one beside it where the numbering has none, and stands at (0, 0) mm. Which of the readings is
-  /// meant nobody knows: the one whose heading is nearest to the one given, or to 0. The sheet is
-  /// relative_sheet().
+  /// Tube-ends around the one nearest to the picture's middle, which is given the address (0, 0),
+  /// or one beside it where the numbering has none, and stands at (0, 0) mm. Which of the readings
+  /// is meant nobody knows: the one whose heading is nearest to the one given, or to 0. The sheet
+  /// is relative_sheet().
   [[nodiscard]] ColdTubes find_middle(const core::picture::AveragedPicture& picture);
 
   /// The settings' lattice around tube (0, 0), without lists and without an end.
