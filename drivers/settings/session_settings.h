@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -20,12 +21,14 @@ struct NeededTables {
   bool tool = false;
   bool tubesheet = false;
   bool start = false;
+  /// Fewer clicks than three will do, or none: the lattice is found cold, or nothing is named yet.
+  bool few_clicks = false;
 };
 
 /// `replay`: all four.
-inline constexpr NeededTables kReplayNeeds{true, true, true, true};
+inline constexpr NeededTables kReplayNeeds{true, true, true, true, true};
 /// `pose`: the tool only for the tool's cells, the start may come from the command line.
-inline constexpr NeededTables kPoseNeeds{true, false, true, false};
+inline constexpr NeededTables kPoseNeeds{true, false, true, false, true};
 /// `calibrate tool`: the tool is what it finds.
 inline constexpr NeededTables kCalibrateToolNeeds{true, false, true, false};
 
@@ -34,6 +37,8 @@ struct SessionFile {
   core::SessionSettings settings;
   bool has_tool = false;
   bool has_start = false;  ///< without it the window is the whole picture
+  /// `heading_deg` of the start: the tool's on the sheet, good to 20 degrees.
+  std::optional<double> heading_deg;
   CalibrationQuality camera_quality;
   CalibrationQuality tool_quality;
   CalibrationQuality base_quality;

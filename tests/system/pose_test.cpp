@@ -310,19 +310,19 @@ TEST(Pose, OfSeveralStillsKeepsTheRowOfARefusedOne) {
   EXPECT_NEAR(Row(folder.path("p.csv"), 1).number("tool_x_mm"), 1041.6, 0.01);
 }
 
-TEST(Pose, WithoutAStartAnywhereSaysWhatIsMissing) {
+TEST(Pose, WithoutAStartAnywhereNamesNoTube) {
   const TemporaryFolder folder;
   std::string session = text_of(kSquare + "session.toml");
   const std::size_t start = session.find("[start]");
   session.erase(start, session.find("[verification]") - start);
   folder.write("s.toml", session);
 
-  const ProgramRun run = run_tubesight(folder, {"pose", "s.toml", kSquare + "still-0-0.png"});
+  const ProgramRun run =
+      run_tubesight(folder, {"pose", "s.toml", kSquare + "still-0-0.png", "--csv", "p.csv"});
 
-  EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err,
-            "s.toml: start: no tube-ends are named, expected [start] here or in an included file, "
-            "or --start\n");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(Row(folder.path("p.csv"), 0).text("row"), "");
+  EXPECT_EQ(Row(folder.path("p.csv"), 0).text("column"), "");
 }
 
 }  // namespace

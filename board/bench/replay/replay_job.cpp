@@ -79,6 +79,9 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    if (in_.settings.start.tubes.empty()) {
+      script_.leave_start_out();  // nobody has named tubes yet
+    }
     if (in_.state) {
       script_.leave_start_out();
       if (const auto restored = session_.restore(*in_.state); !restored) {

@@ -208,10 +208,29 @@ TEST_F(SessionSettings, RefusesMoreTubesThanItHolds) {
             Messages{"s.toml:24: tubesheet.plugged: 16385 tubes, expected at most 16384"});
 }
 
-TEST_F(SessionSettings, ChecksTheStart) {
-  EXPECT_EQ(load_with(",\n          { row = 40, column = 61, at_px = [387, 186] }", ""),
+TEST_F(SessionSettings, AsksForThreeClicksWhereNoLatticeIsFoundCold) {
+  std::string text = kWhole;
+  const std::string third = ",\n          { row = 40, column = 61, at_px = [387, 186] }";
+  text.erase(text.find(third), third.size());
+
+  EXPECT_EQ(load(text, {true, true, true, true}),
             Messages{"s.toml:26: start.tubes: a list of 2, expected at least 3 times { row = R, "
                      "column = C, at_px = [U, V] }"});
+  EXPECT_EQ(load(text), Messages{});
+  EXPECT_EQ(settings_.start.tubes.size(), 2);
+}
+
+TEST_F(SessionSettings, ReadsTheHeadingOfAStart) {
+  EXPECT_EQ(load(kWhole), Messages{});
+  EXPECT_FALSE(session_->heading_deg);
+
+  ASSERT_EQ(load_with("window_px", "heading_deg = -170.5\nwindow_px"), Messages{});
+  EXPECT_EQ(session_->heading_deg, -170.5);
+
+  EXPECT_EQ(load_with("window_px", "heading_deg = 361\nwindow_px").size(), 1U);
+}
+
+TEST_F(SessionSettings, ChecksTheStart) {
   EXPECT_EQ(load_with("at_px = [321, 251]", "at_px = [321, 480]"),
             Messages{"s.toml:27: start.tubes[1].at_px: (321, 480), expected a place in the picture "
                      "of 635 x 480"});
