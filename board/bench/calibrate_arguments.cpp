@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/camera_exchange.h"
 #include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
 
@@ -28,7 +29,8 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
   calibrate
       .add_option(
           "--picture", base.picture,
-          "Of a base, or of zones: draw the sheet with the pairs and how well the tool is known")
+          "Of a camera: draw views, residuals and how well the map is known; of a base, or of "
+          "zones: draw the sheet with the pairs and how well the tool is known")
       ->option_text("PICTURE.png");
 }
 
@@ -72,9 +74,46 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
       ->needs(dock);
 }
 
+void add_camera_options(CLI::App& calibrate, CalibrateArguments& arguments) {
+  CLI::Option* const exported =
+      calibrate
+          .add_option("--export", arguments.exported,
+                      "Of a camera: write it as ROS reads it, with what its distortion model costs")
+          ->option_text("CAMERA.yaml");
+  calibrate
+      .add_flag("--opencv", arguments.opencv,
+                "Export as cv::FileStorage writes it, which strict readers of YAML refuse")
+      ->needs(exported);
+}
+
 bool is_for_base(const CalibrateBaseOptions& base) {
-  return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty() ||
-         !base.picture.empty();
+  return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty();
+}
+
+/// Why options of one calibration were given to another; null when all is well.
+const char* find_misplaced(const CalibrateArguments& arguments) {
+  const std::string& what = arguments.what;
+  if (what != "zones" && !arguments.of_base.empty()) {
+    return "--base: of zones alone, expected calibrate zones";
+  }
+  if (what != "links" && !arguments.arm.empty()) {
+    return "--arm: of links alone, expected calibrate links";
+  }
+  if (what != "camera" && !arguments.exported.empty()) {
+    return "--export: of a camera alone, expected calibrate camera";
+  }
+  if (what != "base" && is_for_base(arguments.base)) {
+    return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
+  }
+  if (what != "camera" && what != "base" && what != "zones" && !arguments.base.picture.empty()) {
+    return "--picture: of a camera, a base or zones, expected calibrate camera, base or zones";
+  }
+  if (what != "tool" && !arguments.tool.docks.empty()) {
+    return what == "camera" ? "--dock: a camera is not docked, expected calibrate tool"
+           : what == "base" ? "--dock: a base is not docked, expected calibrate tool"
+                            : "--dock: of a tool alone, expected calibrate tool";
+  }
+  return nullptr;
 }
 
 }  // namespace
@@ -85,20 +124,23 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       "The camera from views of a dot template, the tool docked on known tubes, or the "
       "robot's base from pairs of poses");
   calibrate
-      ->add_option("WHAT", arguments.what,
-                   "What is calibrated: camera, tool or base, a base's zones, or an arm's links")
-      ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links"}));
-  calibrate
       ->add_option(
-          "FILE", arguments.file,
-          "camera: template and views (TOML); tool: the session, with camera and tubesheet "
-          "(TOML); base, zones and links: poses by robot and by vision (CSV)")
+          "WHAT", arguments.what,
+          "What is calibrated: camera, tool or base, a base's zones, or an arm's links; import: "
+          "a camera of OpenCV or ROS")
+      ->required()
+      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links", "import"}));
+  calibrate
+      ->add_option("FILE", arguments.file,
+                   "camera: template and views (TOML); import: a camera's file (YAML); tool: the "
+                   "session, with camera and tubesheet "
+                   "(TOML); base, zones and links: poses by robot and by vision (CSV)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
                    "Write the settings found; those that stood there are kept as OUT.toml.bak")
       ->option_text("OUT.toml");
+  add_camera_options(*calibrate, arguments);
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
   calibrate
@@ -113,39 +155,26 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
 }
 
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
-  if (arguments.what != "zones" && !arguments.of_base.empty()) {
-    std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
+  if (const char* const misplaced = find_misplaced(arguments); misplaced != nullptr) {
+    std::fprintf(stderr, "%s\n", misplaced);
     return ExitStatus::kWrongInput;
   }
-  if (arguments.what != "links" && !arguments.arm.empty()) {
-    std::fprintf(stderr, "--arm: of links alone, expected calibrate links\n");
-    return ExitStatus::kWrongInput;
+  const std::string& what = arguments.what;
+  if (what == "camera") {
+    return run_calibrate_camera({arguments.file, arguments.out, arguments.base.picture,
+                                 arguments.exported, arguments.opencv});
   }
-  if (arguments.what == "links") {
+  if (what == "import") {
+    return run_import_camera({arguments.file, arguments.out});
+  }
+  if (what == "links") {
     return run_calibrate_links({arguments.file, arguments.arm, arguments.out});
   }
-  if (arguments.what == "zones") {
+  if (what == "zones") {
     return run_calibrate_zones(
         {arguments.file, arguments.of_base, arguments.base.picture, arguments.out});
   }
-  if (arguments.what != "base" && is_for_base(arguments.base)) {
-    std::fprintf(stderr,
-                 "--level, --tool-known, --sheet, --touches, --picture: of a base alone, expected "
-                 "calibrate base\n");
-    return ExitStatus::kWrongInput;
-  }
-  if (arguments.what == "camera") {
-    if (!arguments.tool.docks.empty()) {
-      std::fprintf(stderr, "--dock: a camera is not docked, expected calibrate tool\n");
-      return ExitStatus::kWrongInput;
-    }
-    return run_calibrate_camera({arguments.file, arguments.out});
-  }
-  if (arguments.what == "base") {
-    if (!arguments.tool.docks.empty()) {
-      std::fprintf(stderr, "--dock: a base is not docked, expected calibrate tool\n");
-      return ExitStatus::kWrongInput;
-    }
+  if (what == "base") {
     arguments.base.pairs = arguments.file;
     arguments.base.out = arguments.out;
     return run_calibrate_base(arguments.base);

@@ -39,8 +39,8 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known"
-      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      options="-h --help --level --tool-known --opencv"
+      taking="--sheet --touches --base --arm --picture --export --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
       ;;
     budget)
       options="-h --help"
@@ -75,6 +75,7 @@ _tubesight() {
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
+    calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
     simulate--out) _tubesight_files "" && return ;;
   esac
@@ -96,8 +97,14 @@ _tubesight() {
     esac
   done
   case $command$position in
-    calibrate0) _tubesight_words camera tool base zones links ;;
-    calibrate1) [[ ${COMP_WORDS[2]} =~ ^(base|zones|links)$ ]] && _tubesight_files .csv || _tubesight_files .toml ;;
+    calibrate0) _tubesight_words camera tool base zones links import ;;
+    calibrate1)
+      case ${COMP_WORDS[2]} in
+        base | zones | links) _tubesight_files .csv ;;
+        import) _tubesight_files .yaml .yml ;;
+        *) _tubesight_files .toml ;;
+      esac
+      ;;
     replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;

@@ -14,25 +14,44 @@ constexpr std::chrono::milliseconds kBetween{250};
 }  // namespace
 
 void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time) {
-  if (!shown_) {
+  if (!is_due(now)) {
     return;
+  }
+  std::array<char, 80> text{};
+  const double seconds = std::chrono::duration<double>(time).count();
+  std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
+                static_cast<long long>(fields), seconds);
+  write(text.data());
+}
+
+void ProgressLine::say(Clock::time_point now, std::string_view words) {
+  if (is_due(now)) {
+    write(words);
+  }
+}
+
+bool ProgressLine::is_due(Clock::time_point now) {
+  if (!shown_) {
+    return false;
   }
   if (!next_) {
     next_ = now + kBeforeFirst;
   }
   if (now < *next_) {
-    return;
+    return false;
   }
   next_ = now + kBetween;
-  std::array<char, 80> text{};
-  const double seconds = std::chrono::duration<double>(time).count();
-  std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
-                static_cast<long long>(fields), seconds);
+  return true;
+}
+
+void ProgressLine::write(std::string_view words) {
   // Padded to what stood there, so that a shorter text leaves nothing of a longer one.
-  const int count = std::fprintf(stream_, "\r%-*s",
-                                 static_cast<int>(std::min<std::size_t>(width_, 79)), text.data());
+  constexpr std::size_t kWidest = 79;
+  const std::size_t shown = std::min(words.size(), kWidest);
+  width_ = std::max(width_, shown);
+  std::fprintf(stream_, "\r%-*.*s", static_cast<int>(width_), static_cast<int>(shown),
+               words.data());
   std::fflush(stream_);
-  width_ = count > 1 ? static_cast<std::size_t>(count - 1) : 0;
 }
 
 void ProgressLine::erase() {
