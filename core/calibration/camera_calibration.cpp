@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/calibration/stage_lean.h"
 #include "core/calibration/tsai_start.h"
 
 namespace tubesight::core::calibration {
@@ -155,10 +156,11 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
     return refuse(CalibrationRefusal::kNoStart);
   }
   outcome.fit = fit_in_steps(outcome.freed, data, state, scratch);
-  const bool staged = std::any_of(data.views.begin(), data.views.end(),
-                                  [](const CalibrationView& view) { return view.staged; });
+  const bool staged = std::count_if(data.views.begin(), data.views.end(),
+                                    [](const CalibrationView& view) { return view.staged; }) > 1;
+  math::Matrix6d lean = math::Matrix6d::Zero();
   if (staged) {
-    free_if_asked_for(&FitOptions::stage_axis, data, state, scratch, outcome);
+    lean = settle_stage_axis(data, state, scratch, outcome);
   }
   free_if_asked_for(&FitOptions::distortion2, data, state, scratch, outcome);
   clean(data, state, scratch, outcome);
@@ -171,6 +173,7 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   if (!outcome.fit.converged) {
     return refuse(CalibrationRefusal::kNoFit);
   }
+  outcome.fit.camera_covariance += lean;
   outcome.map = map_uncertainty(data.sensor, state.camera, outcome.fit.camera_covariance);
   if (outcome.fit.rms_px > kMostRms_px) {
     return refuse(CalibrationRefusal::kPoorFit);
