@@ -21,6 +21,7 @@ packages=(
   libaravis-dev        # drivers/aravis: its header alone, the library is loaded at run time
   libglib2.0-dev       # headers that that one includes
   libcli11-dev         # board/bench
+  libyaml-dev          # drivers/camera_yaml
 )
 
 if [ $# -ne 1 ]; then

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/camera_exchange.h"
 #include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
 
@@ -29,8 +30,9 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
   calibrate
       .add_option(
           "--picture", base.picture,
-          "Draw what was found: of a tool the docked picture, of a base or zones the sheet with "
-          "the pairs and how well the tool is known")
+          "Draw what was found: of a camera views, residuals and how well the map is known; of a "
+          "tool the docked picture; of a base or zones the sheet with the pairs and how well the "
+          "tool is known")
       ->option_text("PICTURE.png");
 }
 
@@ -117,9 +119,54 @@ void add_template_options(CLI::App& calibrate, CalibrateTemplateOptions& dots) {
       "Of a template: A4 (default), A3, A2, letter, tabloid, or WIDTH,HEIGHT in mm", "PAPER");
 }
 
+void add_camera_options(CLI::App& calibrate, CalibrateArguments& arguments) {
+  CLI::Option* const exported =
+      calibrate
+          .add_option("--export", arguments.exported,
+                      "Of a camera: write it as ROS reads it, with what its distortion model costs")
+          ->option_text("CAMERA.yaml");
+  calibrate
+      .add_flag("--opencv", arguments.opencv,
+                "Export as cv::FileStorage writes it, which strict readers of YAML refuse")
+      ->needs(exported);
+}
+
 bool is_for_base(const CalibrateBaseOptions& base) {
-  return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty() ||
-         !base.picture.empty();
+  return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty();
+}
+
+/// Why options of one calibration were given to another; null when all is well.
+const char* find_misplaced(const CalibrateArguments& arguments) {
+  const std::string& what = arguments.what;
+  if (what != "zones" && !arguments.of_base.empty()) {
+    return "--base: of zones alone, expected calibrate zones";
+  }
+  if (what != "links" && !arguments.arm.empty()) {
+    return "--arm: of links alone, expected calibrate links";
+  }
+  if (what != "camera" && !arguments.exported.empty()) {
+    return "--export: of a camera alone, expected calibrate camera";
+  }
+  if (what != "base" && is_for_base(arguments.base)) {
+    return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
+  }
+  if ((what == "links" || what == "import" || what == "template") &&
+      !arguments.base.picture.empty()) {
+    return "--picture: of a camera, a tool, a base or zones, expected one of these";
+  }
+  if (what != "template" && arguments.dots.given) {
+    return "--rows, --columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, "
+           "--paper: of a template alone, expected calibrate template";
+  }
+  if (what != "tool" && arguments.tool.docks.empty() && is_for_tool(arguments.tool)) {
+    return "--check, --start, --points, --guidetube-mm: of a tool alone, expected calibrate tool";
+  }
+  if (what != "tool" && !arguments.tool.docks.empty()) {
+    return what == "camera" ? "--dock: a camera is not docked, expected calibrate tool"
+           : what == "base" ? "--dock: a base is not docked, expected calibrate tool"
+                            : "--dock: of a tool alone, expected calibrate tool";
+  }
+  return nullptr;
 }
 
 ExitStatus run_template(CalibrateArguments& arguments) {
@@ -145,20 +192,22 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
   calibrate
       ->add_option("WHAT", arguments.what,
                    "What is calibrated: camera, tool or base, a base's zones, or an arm's links; "
-                   "or template: nothing, but dots to print")
+                   "import: a camera of OpenCV or ROS; template: nothing, but dots to print")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links", "template"}));
+      ->check(
+          CLI::IsMember({"camera", "tool", "base", "zones", "links", "import", "template"}));
   calibrate
       ->add_option(
           "FILE", arguments.file,
-          "camera: template and views (TOML); tool: the session, with camera and tubesheet "
-          "(TOML); base, zones and links: poses by robot and by vision (CSV); template: the file "
-          "to write (.svg or .pdf)")
+          "camera: template and views (TOML); import: a camera's file (YAML); tool: the session, "
+          "with camera and tubesheet (TOML); base, zones and links: poses by robot and by vision "
+          "(CSV); template: the file to write (.svg or .pdf)")
       ->required();
   calibrate
       ->add_option("--out", arguments.out,
                    "Write the settings found; those that stood there are kept as OUT.toml.bak")
       ->option_text("OUT.toml");
+  add_camera_options(*calibrate, arguments);
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
   add_template_options(*calibrate, arguments.dots);
@@ -174,57 +223,32 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
 }
 
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
-  if (arguments.what != "zones" && !arguments.of_base.empty()) {
-    std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
+  if (const char* const misplaced = find_misplaced(arguments); misplaced != nullptr) {
+    std::fprintf(stderr, "%s\n", misplaced);
     return ExitStatus::kWrongInput;
   }
-  if (arguments.what == "template") {
+  const std::string& what = arguments.what;
+  if (what == "template") {
     return run_template(arguments);
   }
-  if (arguments.dots.given) {
-    std::fprintf(stderr,
-                 "--rows, --columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, "
-                 "--paper: of a template alone, expected calibrate template\n");
-    return ExitStatus::kWrongInput;
+  if (what == "camera") {
+    return run_calibrate_camera({arguments.file, arguments.out, arguments.base.picture,
+                                 arguments.exported, arguments.opencv});
   }
-  if (arguments.what != "links" && !arguments.arm.empty()) {
-    std::fprintf(stderr, "--arm: of links alone, expected calibrate links\n");
-    return ExitStatus::kWrongInput;
+  if (what == "import") {
+    return run_import_camera({arguments.file, arguments.out});
   }
-  if (arguments.what != "tool" && arguments.tool.docks.empty() && is_for_tool(arguments.tool)) {
-    std::fprintf(stderr,
-                 "--check, --start, --points, --guidetube-mm: of a tool alone, expected calibrate "
-                 "tool\n");
-    return ExitStatus::kWrongInput;
-  }
-  if (arguments.what == "tool") {
+  if (what == "tool") {
     arguments.tool.picture = std::exchange(arguments.base.picture, {});
   }
-  if (arguments.what == "links") {
+  if (what == "links") {
     return run_calibrate_links({arguments.file, arguments.arm, arguments.out});
   }
-  if (arguments.what == "zones") {
+  if (what == "zones") {
     return run_calibrate_zones(
         {arguments.file, arguments.of_base, arguments.base.picture, arguments.out});
   }
-  if (arguments.what != "base" && is_for_base(arguments.base)) {
-    std::fprintf(stderr,
-                 "--level, --tool-known, --sheet, --touches, --picture: of a base alone, expected "
-                 "calibrate base\n");
-    return ExitStatus::kWrongInput;
-  }
-  if (arguments.what == "camera") {
-    if (!arguments.tool.docks.empty()) {
-      std::fprintf(stderr, "--dock: a camera is not docked, expected calibrate tool\n");
-      return ExitStatus::kWrongInput;
-    }
-    return run_calibrate_camera({arguments.file, arguments.out});
-  }
-  if (arguments.what == "base") {
-    if (!arguments.tool.docks.empty()) {
-      std::fprintf(stderr, "--dock: a base is not docked, expected calibrate tool\n");
-      return ExitStatus::kWrongInput;
-    }
+  if (what == "base") {
     arguments.base.pairs = arguments.file;
     arguments.base.out = arguments.out;
     return run_calibrate_base(arguments.base);

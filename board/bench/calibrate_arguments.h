@@ -20,8 +20,10 @@ struct CalibrateArguments {
   std::string out;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
-  std::string of_base;  ///< the settings that zones correct
-  std::string arm;      ///< the arm whose links are calibrated
+  std::string of_base;   ///< the settings that zones correct
+  std::string exported;  ///< a calibrated camera for OpenCV or ROS
+  bool opencv = false;   ///< in the manner of cv::FileStorage
+  std::string arm;       ///< the arm whose links are calibrated
   CalibrateTemplateOptions dots;
 };
 

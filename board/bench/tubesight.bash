@@ -39,10 +39,10 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known --free-efl"
-      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm"
-      taking+=" --dock-offset-mm --heading-deg --start --points --guidetube-mm --rows --columns"
-      taking+=" --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
+      options="-h --help --level --tool-known --free-efl --opencv"
+      taking="--sheet --touches --base --arm --picture --export --out --dock --check"
+      taking+=" --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
+      taking+=" --rows --columns --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
     budget)
       options="-h --help"
@@ -80,6 +80,7 @@ _tubesight() {
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
+    calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
     simulate--out) _tubesight_files "" && return ;;
   esac
@@ -101,11 +102,12 @@ _tubesight() {
     esac
   done
   case $command$position in
-    calibrate0) _tubesight_words camera tool base zones links template ;;
+    calibrate0) _tubesight_words camera tool base zones links import template ;;
     calibrate1)
       case ${COMP_WORDS[2]} in
         template) _tubesight_files .svg .pdf ;;
         base | zones | links) _tubesight_files .csv ;;
+        import) _tubesight_files .yaml .yml ;;
         *) _tubesight_files .toml ;;
       esac
       ;;

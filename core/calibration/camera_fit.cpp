@@ -233,6 +233,24 @@ bool descend(const Layout& layout, CalibrationData& data, CalibrationState& stat
   return false;
 }
 
+/// The axis' part of the factored matrix' inverse.
+void tell_axis(const Layout& layout, FitScratch& scratch, FitOutcome& outcome) {
+  const double variance = outcome.sigma_px * outcome.sigma_px;
+  const std::int32_t axis = layout.stage() + kPoseUnknowns;
+  for (std::int32_t i = 0; i < kAxisUnknowns; ++i) {
+    scratch.normal.inverse_column(axis + i, scratch.step.data());
+    for (std::int32_t k = 0; k < kAxisUnknowns; ++k) {
+      outcome.axis_covariance(k, i) = variance * scratch.step[static_cast<std::size_t>(axis + k)];
+    }
+    for (std::int32_t k = 0; k < 6; ++k) {
+      if (layout.of_camera(k) >= 0) {
+        outcome.camera_axis_covariance(k, i) =
+            variance * scratch.step[static_cast<std::size_t>(layout.of_camera(k))];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 FitOutcome fit_camera(const FitOptions& options, CalibrationData& data, CalibrationState& state,
@@ -269,6 +287,9 @@ FitOutcome fit_camera(const FitOptions& options, CalibrationData& data, Calibrat
             scratch.step[static_cast<std::size_t>(layout.of_camera(k))];
       }
     }
+  }
+  if (outcome.determined && layout.axis() && layout.stage() >= 0) {
+    tell_axis(layout, scratch, outcome);
   }
   return outcome;
 }

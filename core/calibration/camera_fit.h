@@ -28,6 +28,10 @@ struct FitOutcome {
   double sigma_px = 0.0;
   double rms_px = 0.0;                                        ///< of the residuals' lengths
   math::Matrix6d camera_covariance = math::Matrix6d::Zero();  ///< 0 where held
+  /// Of the lean of the stage's axis in two directions across it, rad, and with the camera; 0 where
+  /// it is held.
+  Eigen::Matrix2d axis_covariance = Eigen::Matrix2d::Zero();
+  Eigen::Matrix<double, 6, 2> camera_axis_covariance = Eigen::Matrix<double, 6, 2>::Zero();
 };
 
 /// Scratch memory, 0.7 MB.

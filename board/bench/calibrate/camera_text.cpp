@@ -18,15 +18,6 @@ using core::calibration::CalibrationRefusal;
 using core::calibration::CalibrationState;
 using core::calibration::Verdict;
 
-std::string_view use_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kBase: return "base calibration, pose and tracking";
-    case Verdict::kPose: return "pose and tracking; not base calibration";
-    case Verdict::kTracking: return "tracking and position correction only";
-  }
-  return "";
-}
-
 struct Parameter {
   const char* name;
   const char* unit;
@@ -75,6 +66,15 @@ core::CameraSettings calibrated(const core::CameraSettings& known,
   return camera;
 }
 
+std::string_view use_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kBase: return "base calibration, pose and tracking";
+    case Verdict::kPose: return "pose and tracking; not base calibration";
+    case Verdict::kTracking: return "tracking and position correction only";
+  }
+  return "";
+}
+
 std::string_view explain(CalibrationRefusal refusal) {
   switch (refusal) {
     case CalibrationRefusal::kNone: return "";
@@ -107,7 +107,8 @@ std::string_view explain(CalibrationRefusal refusal) {
 }
 
 std::string camera_text(const CalibrationData& data, const CalibrationState& state,
-                        const CalibrationOutcome& outcome) {
+                        const CalibrationOutcome& outcome, std::string_view more,
+                        std::string_view next) {
   std::string text;
   drivers::print(text, "camera from %d views, %d dots", data.views.size(), outcome.fit.dots);
   if (outcome.left_out > 0) {
@@ -136,16 +137,12 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
       "  map uncertainty      %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, "
       "%.0f)\n",
       outcome.map.rms_px, outcome.map.worst_px, outcome.map.worst_u_px, outcome.map.worst_v_px);
+  text += more;
   if (outcome.refusal == CalibrationRefusal::kNone) {
     const std::string_view use = use_of(outcome.verdict);
     drivers::print(text, "  good for             %.*s\n", static_cast<int>(use.size()), use.data());
   }
-  if (outcome.verdict != Verdict::kBase || outcome.refusal != CalibrationRefusal::kNone) {
-    drivers::print(text,
-                   "  to better it         a view with dots around (%.0f, %.0f), tilted by 20 to "
-                   "40 deg another way\n",
-                   outcome.map.worst_u_px, outcome.map.worst_v_px);
-  }
+  text += next;
   return text;
 }
 

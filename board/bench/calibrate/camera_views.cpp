@@ -4,8 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <utility>
 
+#include "board/bench/output/progress_line.h"
 #include "core/picture/averaged_picture.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
@@ -83,7 +85,10 @@ ExitStatus CameraViews::read(CalibrationData& data) {
   data.dot_radius_mm = 0.5 * target_.dot_mm;
   data.dots.clear();
   data.views.clear();
+  ProgressLine progress(stderr, standard_error_is_terminal());
   for (const drivers::ViewSettings& view : file_.views) {
+    progress.update(ProgressLine::Clock::now(), "view " + std::to_string(data.views.size() + 1) +
+                                                 " of " + std::to_string(file_.views.size()));
     CalibrationView next;
     next.first = data.dots.size();
     next.staged = view.staged;
@@ -113,6 +118,7 @@ ExitStatus CameraViews::read_images(const drivers::ViewSettings& view, Calibrati
     return fail(ExitStatus::kWrongInput,
                 name + ": target.dot_mm is 0, expected a diameter where dots are to be found");
   }
+  thumbs_.push_back(make_thumb(name, read.picture));
   const auto refusal = finder_->find(read.picture, {}, scratch_, *found_);
   if (refusal != core::detection::FinderRefusal::kNone) {
     return fail(ExitStatus::kJobFailed, name + ": no template: no lattice of dots is found");
@@ -161,6 +167,7 @@ ExitStatus CameraViews::read_points(const drivers::ViewSettings& view, Calibrati
   if (!messages.empty()) {
     return fail(ExitStatus::kWrongInput, messages.front());
   }
+  thumbs_.push_back({view.points, 0, 0, {}});
   return count >= kLeastPoints
              ? ExitStatus::kDone
              : fail(ExitStatus::kWrongInput, view.points + ": " + std::to_string(count) +
