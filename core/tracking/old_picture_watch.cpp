@@ -24,14 +24,28 @@ bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool
   likeness_ = memory_.look(field.pixels, field.parity, window, expected_noise());
   const bool noisy = source_ == Source::kNoisy;
   const bool repeated = noisy && likeness_.equal >= kTorn + 2 * most_equal_;
-  const bool stands = moves && likeness_.equal_edges >= kStandingEdges;
+  const bool standing = likeness_.equal_edges >= kStandingEdges;
+  const bool stands = moves && standing;
   const bool quiet = is_quiet();
   const bool old = repeated || stands || (quiet && quiet_);
   quiet_ = quiet;
   if (!old && !quiet) {
     memory_.keep(field.pixels, field.parity, window);
   }
+  age(old, standing);
   return old;
+}
+
+void OldPictureWatch::age(bool old, bool standing) {
+  if (old) {
+    relapses_ = std::min(relapses_ + (aged_ == Aged::kStood ? 1 : 0), kMostRelapses);
+    aged_ = Aged::kOld;
+  } else if (!standing) {
+    relapses_ = 0;
+    aged_ = Aged::kFresh;
+  } else if (aged_ == Aged::kOld) {
+    aged_ = Aged::kStood;
+  }
 }
 
 // Where the picture got darker the photons' share of the noise went with it: its variance is as the

@@ -97,6 +97,10 @@ void Tracker<S, Margin>::follow(const Field& field) {
   }
   const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
+    if (old_pictures_.stays_old()) {
+      lose(Reason::kCoasted);
+      return;
+    }
     const bool no_field = field.status == FieldStatus::kMissing;
     coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted);
     return;

@@ -23,7 +23,7 @@ core::Start read_clicked_start(TableReader& table, const core::SessionSettings& 
                                ScenarioEvents& to) {
   if (table.has(drivers::kClicksKey)) {
     core::StartSettings start;
-    drivers::read_clicks(table, {&told.camera, &told.tubesheet}, start);
+    drivers::read_clicks(table, {&told.camera, &told.tubesheet}, 3, start);
     return {start.tubes, {}, false};
   }
   ClickWish wish;

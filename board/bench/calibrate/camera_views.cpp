@@ -88,7 +88,7 @@ ExitStatus CameraViews::read(CalibrationData& data) {
   ProgressLine progress(stderr, standard_error_is_terminal());
   for (const drivers::ViewSettings& view : file_.views) {
     progress.update(ProgressLine::Clock::now(), "view " + std::to_string(data.views.size() + 1) +
-                                                 " of " + std::to_string(file_.views.size()));
+                                                    " of " + std::to_string(file_.views.size()));
     CalibrationView next;
     next.first = data.dots.size();
     next.staged = view.staged;
