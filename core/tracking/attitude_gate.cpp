@@ -42,12 +42,11 @@ TurnParts<S> parts_of(const SheetPose<S>& before, const SheetPose<S>& after) {
           plane_length(Vector2<Mm<S>>{along(after.x_axis), along(after.y_axis)})};
 }
 
-// Under a third of the share that the last field's tube-ends had, and so few that they fit a pose
-// by chance: six are twice as many as its numbers need.
+// Under a third of the share that the last field's tube-ends had.
 template <Scalar S>
 bool collapsed(const Observation<S>& seen, const Observation<S>& last) {
   constexpr std::int32_t kFew = 6;  // looked at: a share of so few says nothing
-  return seen.fit.used < kFew && seen.looked_at >= kFew && last.looked_at >= kFew &&
+  return seen.looked_at >= kFew && last.looked_at >= kFew &&
          3 * seen.fit.used * last.looked_at < last.fit.used * seen.looked_at;
 }
 

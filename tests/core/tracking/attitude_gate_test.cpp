@@ -122,11 +122,8 @@ TYPED_TEST(AttitudeGateOf, DoubtsAPictureWhoseTubeEndsAreSuddenlyGone) {
                                        Unit<TypeParam>(kField_s));
   };
   EXPECT_EQ(refused(2), Reason::kNoTubes);
-  EXPECT_EQ(refused(5), Reason::kNoTubes);
-  EXPECT_EQ(refused(6), Reason::kNone) << "no chance makes so many fit one pose";
-  seen.looked_at = 15;
-  EXPECT_EQ(refused(4), Reason::kNoTubes);
-  EXPECT_EQ(refused(5), Reason::kNone) << "a third";
+  EXPECT_EQ(refused(8), Reason::kNoTubes);
+  EXPECT_EQ(refused(9), Reason::kNone);
   seen.looked_at = 5;
   EXPECT_EQ(refused(1), Reason::kNone) << "of so few a share says nothing";
 }
