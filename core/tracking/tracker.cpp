@@ -164,7 +164,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   doubt_.agree(seen.fit.used);
   old_pictures_.believe(rest_of<S>(motion_));
   order_.believe(field, seen.tool.local);
-  last_place_.believe(field, seen.pose.anchor, seen.tool.local);
+  last_place_.believe(field, seen.pose.anchor, seen.tool.local, motion_);
   judge(seen);
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
