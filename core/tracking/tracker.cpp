@@ -196,13 +196,12 @@ void Tracker<S, Margin>::remember_sites() {
       sites_.saw_dark(tube.address);  // a rim off the plane: a plug may have one
     }
   }
-  for (const TubeAddress address : record.sites.dark) {
-    sites_.saw_dark(address);
-  }
-  if (!record.sites.bright.empty()) {
+  if (!record.sites.bright.empty() || !record.sites.dark.empty()) {
     const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
-    for (const TubeAddress address : record.sites.bright) {
-      sites_.saw_bright(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+    for (const auto* const closed : {&record.sites.bright, &record.sites.dark}) {
+      for (const TubeAddress address : *closed) {
+        sites_.saw_closed(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+      }
     }
   }
   sites_.end_field();
