@@ -160,15 +160,15 @@ void VisionBox::stop() {
   pose_worker_.stop();
   loop_.stop();
   source_.stop();
-  if (zones_ != nullptr) {
-    zones_->stop();
-  }
   if (pairs_writer_ != nullptr) {
     pairs_writer_->stop();
   }
   if (writer_ != nullptr) {
     recorder_->flush();
     writer_->stop();
+  }
+  if (zones_ != nullptr) {
+    zones_->stop();  // may take seconds, while nothing is lost any more
   }
 }
 

@@ -36,7 +36,8 @@ void ZoneDesk::stop() {
 }
 
 bool ZoneDesk::at(core::TubeAddress tube, drivers::ZoneAnswer& answer) const {
-  if (!ready_ || !core::tubesheet::in_ranges(sheet_, tube)) {
+  if (!ready_ ||
+      core::tubesheet::check_address(sheet_, tube) != core::tubesheet::AddressFault::kNone) {
     return false;
   }
   const std::array<double, 2> place_mm = core::tubesheet::center_mm(sheet_, tube);

@@ -74,7 +74,10 @@ DockingFocal focal_by_docking(const pose::PoseModel& model, const picture::RimLi
         break;
       }
       changed.camera = *camera;
-      result.solved = solve(changed, rims, estimate, workspace, moved);
+      if (!solve(changed, rims, estimate, workspace, moved)) {
+        result.solved = false;
+        break;
+      }
       found[side] = moved.focal_length_mm;
     }
     result.by_camera(static_cast<Eigen::Index>(i)) = (found[1] - found[0]) / (2.0 * kSteps[i]);

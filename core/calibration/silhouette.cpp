@@ -86,6 +86,11 @@ class Outline {
   double height_px_;
 };
 
+bool in_picture(const AveragedPicture& picture, const Eigen::Vector2d& at) {
+  return at.x() >= 0.0 && at.y() >= 0.0 && at.x() <= picture.width_px - 1.0 &&
+         at.y() <= picture.height_px - 1.0;
+}
+
 double grey(const AveragedPicture& picture, const Eigen::Vector2d& at) {
   const auto u = static_cast<std::int32_t>(std::floor(at.x()));
   const auto v = static_cast<std::int32_t>(std::floor(at.y()));
@@ -241,10 +246,16 @@ void measure(const AveragedPicture& picture, double reach_px, double outwards,
   if (line.points < kLeastPoints || 2 * line.points < count) {
     return;
   }
-  auto moved = edge.points_px;
+  decltype(edge.points_px) moved;
   for (std::int32_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d across = outwards * across_at(edge, i);
-    moved[i] += (line.middle_px + line.turn_px * place_of(i)) * across;
+    const Eigen::Vector2d at = edge.points_px[i] + (line.middle_px + line.turn_px * place_of(i)) *
+                                                       outwards * across_at(edge, i);
+    if (in_picture(picture, at)) {
+      static_cast<void>(moved.try_push_back(at));
+    }
+  }
+  if (moved.size() < kLeastPoints) {
+    return;
   }
   edge.points_px = moved;
   edge.measured = true;

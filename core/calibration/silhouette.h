@@ -53,7 +53,8 @@ struct Silhouette {
 
 /// Moves each part to the edge that the picture shows within `reach_px` of it: the steepest place
 /// of the grey levels across it at each of its points, and a shift and turn that most of them agree
-/// on. What finds no such edge (too dark, too alike what is behind) stays as computed.
+/// on. Points that leave the picture so are left out. What finds no such edge (too dark, too alike
+/// what is behind) stays as computed.
 void measure_silhouette(const picture::AveragedPicture& picture, double reach_px,
                         Silhouette& silhouette);
 

@@ -37,7 +37,6 @@ class PairsText {
   std::string name_;
   std::int32_t rows_ = 0;
   std::int32_t joints_ = -1;  ///< columns; below 0: there is no header yet
-  std::size_t cells_ = 0;     ///< of a row
   std::int64_t last_ = 0;     ///< largest N of the names "pN"
 };
 

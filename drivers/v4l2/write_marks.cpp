@@ -7,8 +7,11 @@
 namespace tubesight::drivers::v4l2 {
 namespace {
 
-/// Of 16 bits a value beyond 10; of packed formats a luma of 0 or 255 with no colour that there is.
-constexpr std::array<std::uint8_t, WriteMarks::kBytes> kMark{0, 255, 0, 255, 0, 255, 0, 255};
+/// In no order that repeats, as a mark may begin with either byte of a pixel of two: 0 and 255 by
+/// turns are four pixels of one grey then, a dark one of 10 bits, or white of a sensor of 8 in the
+/// upper half of 16. So it is of 16 bits a value beyond 10 and jumps from end to end, of packed
+/// formats colours from end to end, and of one byte black and white by pixels.
+constexpr std::array<std::uint8_t, WriteMarks::kBytes> kMark{0, 255, 255, 0, 255, 0, 0, 255};
 /// From the place of one line's mark to that of the next: odd, so that none is left out.
 constexpr std::int64_t kStride = 7'919;
 

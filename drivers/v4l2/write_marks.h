@@ -11,13 +11,14 @@ namespace tubesight::drivers::v4l2 {
 ///
 /// A driver that loses a packet of its grabber, or a whole picture, may hand the buffer out all the
 /// same, without a flag: what stands there is of some buffers ago, an old picture that looks well.
-/// So each buffer goes to the driver with a mark in its lines, eight bytes of 0 and 255 by turns,
-/// which no lens and no sheet draws; one that is still there when the buffer comes back lies in a
+/// So each buffer goes to the driver with a mark in its lines, eight bytes of 0 and 255 in an order
+/// that no lens and no sheet draws; one that is still there when the buffer comes back lies in a
 /// line that nobody wrote. A mark in vain costs nothing: where the memory is not what the driver
 /// writes to, none is ever found. No heap.
 class WriteMarks {
  public:
-  /// Lines of a field that have a mark, at most: of one that has more, every second or third.
+  /// Lines of a field that have a mark, at most: of one that has more, each second, or up to
+  /// each tenth of 1200.
   static constexpr std::int32_t kMostLines = 120;
   static constexpr std::int32_t kBytes = 8;
 

@@ -125,6 +125,29 @@ TEST(Silhouette, MovesToTheEdgesThatThePictureShows) {
   }
 }
 
+// The left side comes near the picture's left edge at its lower end, and stands farther out.
+TEST(Silhouette, LeavesOutPointsThatLeaveThePicture) {
+  const auto pixels = drawn(tool_at(-59.2));
+  const picture::AveragedPicture picture{pixels.data(), kWidth, kHeight};
+  Silhouette silhouette =
+      computed_silhouette(the_camera(), tool_at(-58.0), kShape, kWidth, kHeight);
+  const std::int32_t computed = silhouette.edge(SilhouettePart::kLeft).points_px.size();
+
+  measure_silhouette(picture, 9.0, silhouette);
+
+  const SilhouetteEdge& left = silhouette.edge(SilhouettePart::kLeft);
+  EXPECT_TRUE(left.measured);
+  EXPECT_GT(left.shift_px, 4.0);
+  EXPECT_LT(left.points_px.size(), computed);
+  for (const SilhouetteEdge& edge : silhouette.edges) {
+    for (const Eigen::Vector2d& at : edge.points_px) {
+      EXPECT_TRUE(at.x() >= 0.0 && at.y() >= 0.0 && at.x() <= kWidth - 1.0 &&
+                  at.y() <= kHeight - 1.0)
+          << at.transpose();
+    }
+  }
+}
+
 TEST(Silhouette, StaysAsComputedWhereNothingIsSeen) {
   const auto pixels = drawn(tool_at(-3.0), 34.0);  // as dark as the guidetube
   const picture::AveragedPicture picture{pixels.data(), kWidth, kHeight};

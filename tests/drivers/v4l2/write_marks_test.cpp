@@ -119,6 +119,26 @@ TEST(WriteMarks, LeaveTheEdgesOfAPictureAlone) {
   EXPECT_FALSE(marks.left(picture.data(), agreed.lines_of(true, false)));
 }
 
+// A dark grey of 10 bits, and white of a sensor of 8 bits in the upper half of 16, among others.
+TEST(WriteMarks, AreNoPictureOfOneGrey) {
+  for (const char* const name : {"Y10", "Y16"}) {
+    drivers::v4l2::AgreedFormat agreed;
+    agreed.pixel = *drivers::v4l2::pixel_format_named(name);
+    agreed.lines = 48;
+    agreed.stride_bytes = 128;
+    drivers::v4l2::WriteMarks marks;
+    marks.begin(agreed, 64);
+    for (const unsigned grey : {0x0000U, 0x00ffU, 0xff00U, 0xffffU}) {
+      std::vector<std::byte> picture(48 * 128);
+      for (std::size_t i = 0; i < picture.size(); i += 2) {
+        picture[i] = static_cast<std::byte>(grey & 0xffU);
+        picture[i + 1] = static_cast<std::byte>(grey >> 8U);
+      }
+      EXPECT_FALSE(marks.left(picture.data(), agreed.lines_of(false, false))) << name << grey;
+    }
+  }
+}
+
 // What the driver flags is counted as that alone.
 TEST(UnwrittenField, OfAFlaggedBufferIsToldOnce) {
   CameraBench bench;
