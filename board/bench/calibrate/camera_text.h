@@ -17,15 +17,17 @@ namespace tubesight::board {
 [[nodiscard]] std::string_view explain(core::calibration::CalibrationRefusal refusal);
 
 /// Parameters with their standard deviations, what the residuals are, what the map is worth, the
-/// verdict, and what would better it: lines for a person.
+/// verdict, and what would better it: lines for a person. `type`: of all cameras of the type.
 [[nodiscard]] std::string camera_text(const core::calibration::CalibrationData& data,
                                       const core::calibration::CalibrationState& state,
-                                      const core::calibration::CalibrationOutcome& outcome);
+                                      const core::calibration::CalibrationOutcome& outcome,
+                                      bool type = false);
 
 /// `[camera]` and `[camera_quality]` as a settings file; `device` says which camera it is, where
 /// that is known.
 [[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
                                                const core::calibration::CalibrationOutcome& outcome,
-                                               const drivers::CalibrationQuality& device);
+                                               const drivers::CalibrationQuality& device,
+                                               bool type = false);
 
 }  // namespace tubesight::board
