@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
 
@@ -30,6 +29,16 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
           "--picture", base.picture,
           "Of a base, or of zones: draw the sheet with the pairs and how well the tool is known")
       ->option_text("PICTURE.png");
+}
+
+void add_camera_options(CLI::App& calibrate, CalibrateCameraOptions& camera) {
+  calibrate
+      .add_option("--write-points", camera.points,
+                  "Of a camera: write what the pictures show as points files, and a target.toml "
+                  "that reads them")
+      ->option_text("FOLDER");
+  calibrate.add_flag("--type", camera.type,
+                     "Of a camera: for all of its type that have no calibration of their own");
 }
 
 void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
@@ -99,6 +108,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->add_option("--out", arguments.out,
                    "Write the settings found; those that stood there are kept as OUT.toml.bak")
       ->option_text("OUT.toml");
+  add_camera_options(*calibrate, arguments.camera);
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
   calibrate
@@ -113,6 +123,10 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
 }
 
 ExitStatus run_calibrate(CalibrateArguments& arguments) {
+  if (arguments.what != "camera" && (arguments.camera.type || !arguments.camera.points.empty())) {
+    std::fprintf(stderr, "--write-points, --type: of a camera alone, expected calibrate camera\n");
+    return ExitStatus::kWrongInput;
+  }
   if (arguments.what != "zones" && !arguments.of_base.empty()) {
     std::fprintf(stderr, "--base: of zones alone, expected calibrate zones\n");
     return ExitStatus::kWrongInput;
@@ -139,7 +153,9 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
       std::fprintf(stderr, "--dock: a camera is not docked, expected calibrate tool\n");
       return ExitStatus::kWrongInput;
     }
-    return run_calibrate_camera({arguments.file, arguments.out});
+    arguments.camera.target = arguments.file;
+    arguments.camera.out = arguments.out;
+    return run_calibrate_camera(arguments.camera);
   }
   if (arguments.what == "base") {
     if (!arguments.tool.docks.empty()) {

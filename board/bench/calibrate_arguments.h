@@ -3,6 +3,7 @@
 #include <string>
 
 #include "board/bench/calibrate/base_command.h"
+#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/tool_command.h"
 #include "board/bench/output/exit_status.h"
 
@@ -17,6 +18,7 @@ struct CalibrateArguments {
   std::string what;
   std::string file;
   std::string out;
+  CalibrateCameraOptions camera;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
   std::string of_base;  ///< the settings that zones correct

@@ -39,8 +39,8 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known"
-      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      options="-h --help --level --tool-known --type"
+      taking="--write-points --sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
       ;;
     budget)
       options="-h --help"
@@ -76,7 +76,7 @@ _tubesight() {
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
-    simulate--out) _tubesight_files "" && return ;;
+    simulate--out | calibrate--write-points) _tubesight_files "" && return ;;
   esac
   case " $taking " in
     *" $previous "*) return ;; # a number, a tube: nothing to offer

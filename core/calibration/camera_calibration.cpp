@@ -27,6 +27,7 @@ constexpr double kCenterAssumed = 0.025;  // of the picture's width
 constexpr double kMostOfFocalOneView = 0.1;
 
 constexpr double kPatternDoubt = 2.0;
+constexpr double kMuchPattern = 4.0;  // growth of the covariance that is the reason of a refusal
 
 // EFL of a lens at another focus than its data sheet's differs by some percent.
 constexpr double kLikeLens = 0.2;
@@ -188,8 +189,7 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   // Errors that hang together keep to no normal distribution: twice the standard deviation counts.
   const double map_px = std::hypot((outcome.patterned ? kPatternDoubt : 1.0) * outcome.map.rms_px,
                                    outcome.tangential.map.rms_px);
-  if (outcome.patterned && outcome.map.rms_px <= kForTracking_px * std::sqrt(outcome.grown) &&
-      !(map_px <= kForTracking_px)) {
+  if (!(map_px <= kForTracking_px) && outcome.grown > kMuchPattern) {
     return refuse(CalibrationRefusal::kPattern);
   }
   if (!(sigma_of_focal < kMostOfFocal) || !std::isfinite(outcome.map.rms_px)) {

@@ -1,15 +1,16 @@
 #include "board/bench/calibrate/camera_command.h"
 
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "board/bench/calibrate/calibration_file.h"
 #include "board/bench/calibrate/camera_text.h"
 #include "board/bench/calibrate/camera_views.h"
+#include "board/bench/calibrate/points_file.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
 #include "core/calibration/camera_calibration.h"
+#include "core/calibration/camera_type.h"
 #include "drivers/settings/target_settings.h"
 
 namespace tubesight::board {
@@ -32,7 +33,25 @@ std::string find_conflict(const CalibrateCameraOptions& options, const drivers::
       inputs.push_back({"a picture", image});
     }
   }
-  return find_clash(inputs, std::array{NamedPath{"--out", options.out}});
+  std::vector<NamedPath> outputs = {{"--out", options.out}};
+  if (!options.points.empty()) {
+    for (const std::string& path : points_files(options.points, file.views.size())) {
+      outputs.push_back({"--write-points", path});
+    }
+  }
+  return find_clash(inputs, outputs);
+}
+
+/// Whether there is anything to tell beside the reason why it is refused.
+bool tells_what_it_found(const core::calibration::CalibrationOutcome& outcome) {
+  switch (outcome.refusal) {
+    case CalibrationRefusal::kNone:
+    case CalibrationRefusal::kTooUncertain:
+    case CalibrationRefusal::kPattern:
+    case CalibrationRefusal::kOtherLens: return true;
+    case CalibrationRefusal::kOneView: return outcome.assumed;
+    default: return false;
+  }
 }
 
 }  // namespace
@@ -55,10 +74,16 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     tell(views.message());
     return status;
   }
-  const auto outcome = core::calibration::calibrate_camera(work->data, work->state, work->scratch);
-  if (outcome.refusal == CalibrationRefusal::kNone ||
-      outcome.refusal == CalibrationRefusal::kTooUncertain) {
-    if (!write_out(camera_text(work->data, work->state, outcome))) {
+  if (!options.points.empty() && !write_points(options.points, file, work->data)) {
+    return ExitStatus::kJobFailed;
+  }
+  auto outcome = core::calibration::calibrate_camera(work->data, work->state, work->scratch);
+  if (options.type && outcome.refusal == CalibrationRefusal::kNone) {
+    core::calibration::widen_to_type(work->data.sensor, work->state.camera, {}, outcome);
+    file.device.serial.clear();
+  }
+  if (tells_what_it_found(outcome)) {
+    if (!write_out(camera_text(work->data, work->state, outcome, options.type))) {
       return ExitStatus::kJobFailed;
     }
   }
@@ -68,7 +93,8 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
   }
   const core::CameraSettings camera = calibrated(file.camera, work->state.camera);
   return options.out.empty() ||
-                 write_settings(options.out, camera_settings_text(camera, outcome, file.device))
+                 write_settings(options.out,
+                                camera_settings_text(camera, outcome, file.device, options.type))
              ? ExitStatus::kDone
              : ExitStatus::kJobFailed;
 }
