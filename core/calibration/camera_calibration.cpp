@@ -114,31 +114,36 @@ Verdict verdict_for(double map_rms_px) {
                                      : Verdict::kTracking;
 }
 
+double map_sigma_px(const Sensor& sensor, const CameraValues& camera,
+                    const math::Matrix6d& covariance, const Eigen::Vector2d& pixel) {
+  constexpr double kStep = 1e-6;
+  // The ray's slope times EFL in pixels: what an error of it moves in the picture.
+  Eigen::Matrix<double, 2, 6> slope;
+  for (int k = 0; k < 6; ++k) {
+    const double step = kStep * std::max(1.0, std::abs(camera(k)));
+    const CameraValues off = step * CameraValues::Unit(k);
+    slope.col(k) = (ideal_of(sensor, camera + off, pixel) / (camera + off)(0) -
+                    ideal_of(sensor, camera - off, pixel) / (camera - off)(0)) /
+                   (2.0 * step);
+  }
+  slope.row(0) *= camera(0) * camera(1) / sensor.column_mm;
+  slope.row(1) *= camera(0) / sensor.row_mm;
+  return std::sqrt((slope * covariance * slope.transpose()).trace());
+}
+
 MapUncertainty map_uncertainty(const Sensor& sensor, const CameraValues& camera,
                                const math::Matrix6d& covariance) {
   constexpr int kColumns = 17;
   constexpr int kRows = 13;
-  constexpr double kStep = 1e-6;
   MapUncertainty result;
   double squares = 0.0;
   for (int i = 0; i < kColumns * kRows; ++i) {
     const Eigen::Vector2d pixel((i % kColumns) * (sensor.width_px - 1.0) / (kColumns - 1),
                                 (i / kColumns) * (sensor.height_px - 1.0) / (kRows - 1));
-    // The ray's slope times EFL in pixels: what an error of it moves in the picture.
-    Eigen::Matrix<double, 2, 6> slope;
-    for (int k = 0; k < 6; ++k) {
-      const double step = kStep * std::max(1.0, std::abs(camera(k)));
-      const CameraValues off = step * CameraValues::Unit(k);
-      slope.col(k) = (ideal_of(sensor, camera + off, pixel) / (camera + off)(0) -
-                      ideal_of(sensor, camera - off, pixel) / (camera - off)(0)) /
-                     (2.0 * step);
-    }
-    slope.row(0) *= camera(0) * camera(1) / sensor.column_mm;
-    slope.row(1) *= camera(0) / sensor.row_mm;
-    const double variance = (slope * covariance * slope.transpose()).trace();
-    squares += variance;
-    if (std::sqrt(variance) > result.worst_px) {
-      result.worst_px = std::sqrt(variance);
+    const double sigma_px = map_sigma_px(sensor, camera, covariance, pixel);
+    squares += sigma_px * sigma_px;
+    if (sigma_px > result.worst_px) {
+      result.worst_px = sigma_px;
       result.worst_u_px = pixel.x();
       result.worst_v_px = pixel.y();
     }

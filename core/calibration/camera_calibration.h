@@ -70,7 +70,11 @@ struct CalibrationOutcome {
 /// What a map known to so much, RMS over the picture and up to 1 px, may be used for.
 [[nodiscard]] Verdict verdict_for(double map_rms_px);
 
-/// The map's uncertainty for a covariance of the camera's parameters.
+/// The map's standard deviation at a pixel, for a covariance of the camera's parameters.
+[[nodiscard]] double map_sigma_px(const Sensor& sensor, const CameraValues& camera,
+                                  const math::Matrix6d& covariance, const Eigen::Vector2d& pixel);
+
+/// The same over the whole picture.
 [[nodiscard]] MapUncertainty map_uncertainty(const Sensor& sensor, const CameraValues& camera,
                                              const math::Matrix6d& covariance);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "board/bench/calibrate/calibration_file.h"
+#include "core/calibration/picture_cover.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
 #include "drivers/settings/toml_writer.h"
@@ -67,7 +68,7 @@ void append_correlation(std::string& text, const CalibrationOutcome& outcome) {
 }
 
 /// What the camera or the template has beside the model, and what one view leaves open.
-void append_misfits(std::string& text, const CalibrationState& state,
+void append_misfits(std::string& text, const CalibrationData& data, const CalibrationState& state,
                     const CalibrationOutcome& outcome) {
   if (outcome.patterned) {
     drivers::print(
@@ -75,6 +76,15 @@ void append_misfits(std::string& text, const CalibrationState& state,
         "                       they hang together: %.3f px RMS of a pattern, %.1f times "
         "what noise leaves\n",
         outcome.pattern.rms_px, outcome.pattern.ratio);
+  }
+  constexpr double kWorthTelling = 0.2;  // of the picture
+  const auto part =
+      core::calibration::uncovered_part(data, state.camera, outcome.fit.camera_covariance);
+  if (part.share > kWorthTelling) {
+    drivers::print(text,
+                   "  without a dot        %.0f %% of the picture, around (%.0f, %.0f): the model "
+                   "alone tells the map there, to %.3f px RMS\n",
+                   100.0 * part.share, part.u_px, part.v_px, part.rms_px);
   }
   if (outcome.assumed) {
     drivers::print(
@@ -180,7 +190,7 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
   drivers::print(text,
                  "  residuals            %.4f px RMS of a dot, %.4f px sigma of a coordinate\n",
                  outcome.fit.rms_px, outcome.fit.sigma_px);
-  append_misfits(text, state, outcome);
+  append_misfits(text, data, state, outcome);
   drivers::print(
       text,
       "  map uncertainty      %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, "

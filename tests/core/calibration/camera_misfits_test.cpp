@@ -6,6 +6,7 @@
 
 #include "core/calibration/camera_type.h"
 #include "core/calibration/lens_misfit.h"
+#include "core/calibration/picture_cover.h"
 #include "tests/core/calibration/computed_views.h"
 
 namespace tubesight::core::calibration {
@@ -134,6 +135,23 @@ TEST_F(CameraMisfits, HeightsInAnotherUnitAreRefusedWhereTheLensIsKnown) {
                 refusal == CalibrationRefusal::kNoStart)
         << factor << ": " << static_cast<int>(refusal);
   }
+}
+
+TEST_F(CameraMisfits, APictureWithoutDotsInHalfOfItIsToldWithItsUncertainty) {
+  add_stage();
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+  EXPECT_LT(uncovered_part(*data_, state_->camera, outcome_.fit.camera_covariance).share, 0.2);
+  const double whole = outcome_.map.rms_px;
+  for (SeenDot& dot : data_->dots) {
+    dot.used = dot.seen_px.x() < 320.0;
+  }
+  const FitOutcome half = fit_camera({}, *data_, *state_, *scratch_);
+
+  const UncoveredPart part = uncovered_part(*data_, state_->camera, half.camera_covariance);
+
+  EXPECT_GT(part.share, 0.37) << "what is right of 320 px + 80 px";
+  EXPECT_GT(part.u_px, 400.0);
+  EXPECT_GT(part.rms_px, 1.5 * whole);
 }
 
 TEST_F(CameraMisfits, OneTiltedViewTellsSomethingAndIsRefused) {
