@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/camera_exchange.h"
 #include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
@@ -34,6 +33,25 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
           "tool the docked picture; of a base or zones the sheet with the pairs and how well the "
           "tool is known")
       ->option_text("PICTURE.png");
+}
+
+void add_camera_options(CLI::App& calibrate, CalibrateCameraOptions& camera) {
+  calibrate
+      .add_option("--write-points", camera.points,
+                  "Of a camera: write what the pictures show as points files, and a target.toml "
+                  "that reads them")
+      ->option_text("FOLDER");
+  calibrate.add_flag("--type", camera.type,
+                     "Of a camera: for all of its type that have no calibration of their own");
+  CLI::Option* const exported =
+      calibrate
+          .add_option("--export", camera.exported,
+                      "Of a camera: write it as ROS reads it, with what its distortion model costs")
+          ->option_text("CAMERA.yaml");
+  calibrate
+      .add_flag("--opencv", camera.opencv,
+                "Export as cv::FileStorage writes it, which strict readers of YAML refuse")
+      ->needs(exported);
 }
 
 void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
@@ -119,18 +137,6 @@ void add_template_options(CLI::App& calibrate, CalibrateTemplateOptions& dots) {
       "Of a template: A4 (default), A3, A2, letter, tabloid, or WIDTH,HEIGHT in mm", "PAPER");
 }
 
-void add_camera_options(CLI::App& calibrate, CalibrateArguments& arguments) {
-  CLI::Option* const exported =
-      calibrate
-          .add_option("--export", arguments.exported,
-                      "Of a camera: write it as ROS reads it, with what its distortion model costs")
-          ->option_text("CAMERA.yaml");
-  calibrate
-      .add_flag("--opencv", arguments.opencv,
-                "Export as cv::FileStorage writes it, which strict readers of YAML refuse")
-      ->needs(exported);
-}
-
 bool is_for_base(const CalibrateBaseOptions& base) {
   return base.level || base.tool_known || !base.sheet.empty() || !base.touches.empty();
 }
@@ -144,8 +150,11 @@ const char* find_misplaced(const CalibrateArguments& arguments) {
   if (what != "links" && !arguments.arm.empty()) {
     return "--arm: of links alone, expected calibrate links";
   }
-  if (what != "camera" && !arguments.exported.empty()) {
+  if (what != "camera" && !arguments.camera.exported.empty()) {
     return "--export: of a camera alone, expected calibrate camera";
+  }
+  if (what != "camera" && (arguments.camera.type || !arguments.camera.points.empty())) {
+    return "--write-points, --type: of a camera alone, expected calibrate camera";
   }
   if (what != "base" && is_for_base(arguments.base)) {
     return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
@@ -206,7 +215,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->add_option("--out", arguments.out,
                    "Write the settings found; those that stood there are kept as OUT.toml.bak")
       ->option_text("OUT.toml");
-  add_camera_options(*calibrate, arguments);
+  add_camera_options(*calibrate, arguments.camera);
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
   add_template_options(*calibrate, arguments.dots);
@@ -231,8 +240,10 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
     return run_template(arguments);
   }
   if (what == "camera") {
-    return run_calibrate_camera({arguments.file, arguments.out, arguments.base.picture,
-                                 arguments.exported, arguments.opencv});
+    arguments.camera.target = arguments.file;
+    arguments.camera.out = arguments.out;
+    arguments.camera.picture = std::exchange(arguments.base.picture, {});
+    return run_calibrate_camera(arguments.camera);
   }
   if (what == "import") {
     return run_import_camera({arguments.file, arguments.out});

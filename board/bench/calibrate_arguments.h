@@ -3,6 +3,7 @@
 #include <string>
 
 #include "board/bench/calibrate/base_command.h"
+#include "board/bench/calibrate/camera_command.h"
 #include "board/bench/calibrate/template_command.h"
 #include "board/bench/calibrate/tool_command.h"
 #include "board/bench/output/exit_status.h"
@@ -18,12 +19,11 @@ struct CalibrateArguments {
   std::string what;
   std::string file;
   std::string out;
+  CalibrateCameraOptions camera;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
-  std::string of_base;   ///< the settings that zones correct
-  std::string exported;  ///< a calibrated camera for OpenCV or ROS
-  bool opencv = false;   ///< in the manner of cv::FileStorage
-  std::string arm;       ///< the arm whose links are calibrated
+  std::string of_base;  ///< the settings that zones correct
+  std::string arm;      ///< the arm whose links are calibrated
   CalibrateTemplateOptions dots;
 };
 

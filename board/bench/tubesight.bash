@@ -39,8 +39,8 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known --free-efl --opencv"
-      taking="--sheet --touches --base --arm --picture --export --out --dock --check"
+      options="-h --help --level --tool-known --free-efl --opencv --type"
+      taking="--write-points --sheet --touches --base --arm --picture --export --out --dock --check"
       taking+=" --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
       taking+=" --rows --columns --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
@@ -82,7 +82,7 @@ _tubesight() {
     campaign--out) _tubesight_files .toml .csv && return ;;
     calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
-    simulate--out) _tubesight_files "" && return ;;
+    simulate--out | calibrate--write-points) _tubesight_files "" && return ;;
   esac
   case " $taking " in
     *" $previous "*) return ;; # a number, a tube: nothing to offer

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/calibration/lens_misfit.h"
+
 namespace tubesight::core::calibration {
 namespace {
 
@@ -84,13 +86,13 @@ bool take_half(const CalibrationData& from, const CalibrationState& state, Halve
     CalibrationView view = from.views[v];
     view.first = half.dots.size();
     for (std::int32_t i = 0; i < from.views[v].count; ++i) {
-      const SeenDot& dot = from.dots[from.views[v].first + i];
+      SeenDot dot = from.dots[from.views[v].first + i];
       const bool of_first = split == HalvesSplit::kDots     ? i % 2 == 0
                             : split == HalvesSplit::kPlaces ? sides.first(dot)
                                                             : first;
-      if (dot.used && of_first == first) {
-        static_cast<void>(half.dots.try_push_back(dot));
-      }
+      // The other half's dots stay, unused: a bow is counted from the middle of them all.
+      dot.used = dot.used && of_first == first;
+      static_cast<void>(half.dots.try_push_back(dot));
     }
     view.count = half.dots.size() - view.first;
     static_cast<void>(half.views.try_push_back(view));
@@ -117,36 +119,24 @@ bool fit_half(const CalibrationData& data, const CalibrationState& state, const 
 
 }  // namespace
 
-double map_difference_px(const Sensor& sensor, const CameraValues& one, const CameraValues& other) {
-  constexpr int kColumns = 17;
-  constexpr int kRows = 13;
-  double squares = 0.0;
-  for (int i = 0; i < kColumns * kRows; ++i) {
-    const Eigen::Vector2d pixel((i % kColumns) * (sensor.width_px - 1.0) / (kColumns - 1),
-                                (i / kColumns) * (sensor.height_px - 1.0) / (kRows - 1));
-    Eigen::Vector2d off =
-        ideal_of(sensor, one, pixel) / one(0) - ideal_of(sensor, other, pixel) / other(0);
-    off.x() *= one(0) * one(1) / sensor.column_mm;
-    off.y() *= one(0) / sensor.row_mm;
-    squares += off.squaredNorm();
-  }
-  return std::sqrt(squares / (kColumns * kRows));
-}
-
 HalvesOutcome compare_halves(const CalibrationData& data, const CalibrationState& state,
                              const FitOptions& freed, HalvesScratch& scratch) {
   HalvesOutcome worst;
+  FitOptions options = freed;
+  options.tangential = false;  // the camera is the best one without it
   for (const HalvesSplit split : {HalvesSplit::kDots, HalvesSplit::kPlaces, HalvesSplit::kViews}) {
     Half first;
     Half second;
-    if (!fit_half(data, state, freed, split, true, scratch, first) ||
-        !fit_half(data, state, freed, split, false, scratch, second)) {
+    if (!fit_half(data, state, options, split, true, scratch, first) ||
+        !fit_half(data, state, options, split, false, scratch, second)) {
       continue;
     }
     HalvesOutcome outcome;
     outcome.told = true;
     outcome.split = split;
-    outcome.off_px = map_difference_px(data.sensor, first.camera, second.camera);
+    outcome.off_px =
+        map_difference(data.sensor, first.camera, second.camera, {0.0, 0.0}, MapGauge::kNone)
+            .rms_px;
     outcome.promised_px = std::hypot(first.map.rms_px, second.map.rms_px);
     if (!worst.told || outcome.sigmas() > worst.sigmas()) {
       worst = outcome;

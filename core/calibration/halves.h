@@ -30,11 +30,6 @@ struct HalvesOutcome {
 /// calibrations at most, as the worst of three divisions is told.
 inline constexpr double kMostHalvesSigmas = 2.5;
 
-/// What lies between two maps from pixels to rays, RMS over the picture, in pixels, counted as in
-/// MapUncertainty.
-[[nodiscard]] double map_difference_px(const Sensor& sensor, const CameraValues& one,
-                                       const CameraValues& other);
-
 /// Scratch memory, 1.3 MB.
 struct HalvesScratch {
   CalibrationData data;

@@ -94,6 +94,8 @@ class Template {
 NextViewOutcome find_next_view(const CalibrationData& data, const CalibrationState& state,
                                const CalibrationOutcome& outcome, HalvesScratch& scratch) {
   NextViewOutcome best;
+  FitOptions options = outcome.freed;
+  options.tangential = false;  // the camera is the best one without it
   const Template seen(data, state);
   for (const NextView view : {NextView::kUpperNearer, NextView::kLowerNearer, NextView::kLeftNearer,
                               NextView::kRightNearer, NextView::kSquare}) {
@@ -103,16 +105,16 @@ NextViewOutcome find_next_view(const CalibrationData& data, const CalibrationSta
     if (!seen.append(pose, state, scratch.data) || !scratch.state.poses.try_push_back(pose)) {
       continue;
     }
-    const FitOutcome fit = fit_camera(outcome.freed, scratch.data, scratch.state, scratch.fit);
+    const FitOutcome fit = fit_camera(options, scratch.data, scratch.state, scratch.fit);
     if (!fit.determined || !(fit.sigma_px > 0.0)) {
       continue;
     }
-    // The new dots have no noise yet: the noise is that of the old ones.
+    // The new dots have no noise yet: the noise is that of the old ones, and their pattern.
     const double noise = outcome.fit.sigma_px / fit.sigma_px;
-    const double rms_px =
-        map_uncertainty(data.sensor, scratch.state.camera, noise * noise * fit.camera_covariance)
-            .rms_px;
-    if (std::isfinite(rms_px) && (!best.told || rms_px < best.map_rms_px)) {
+    const double rms_px = map_uncertainty(data.sensor, scratch.state.camera,
+                                          outcome.grown * noise * noise * fit.camera_covariance)
+                              .rms_px;
+    if (rms_px < (best.told ? best.map_rms_px : outcome.map.rms_px)) {
       best = {true, view, rms_px};
     }
   }

@@ -18,7 +18,7 @@ enum class NextView : std::uint8_t {
 
 /// The view that helps most, and what it would bring.
 struct NextViewOutcome {
-  bool told = false;  ///< false: there is no room for one more view
+  bool told = false;  ///< false: there is no room for one more view, or none betters the map
   NextView view = NextView::kSquare;
   double map_rms_px = 0.0;  ///< of the map with it
 };

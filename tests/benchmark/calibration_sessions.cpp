@@ -225,7 +225,8 @@ class Session {
     if (wanted.each) {
       print_errors(squares, error, covariance);
     }
-    const double off = map_difference_px(data_->sensor, state_->camera, truth);
+    const double off =
+        map_difference(data_->sensor, state_->camera, truth, {0.0, 0.0}, MapGauge::kNone).rms_px;
     sums.map_px2 += off * off;
     sums.map_squares += off * off / (outcome.map.rms_px * outcome.map.rms_px);
     sums.sigma_px += outcome.fit.sigma_px;

@@ -76,29 +76,33 @@ TEST(CalibrateCamera, SaysHowFarItsHalvesAgreeAndWhatThatIsOfTheTip) {
   EXPECT_NE(run.out.find("    90 mm below a sheet  0.0"), std::string::npos) << run.out;
 }
 
-TEST(CalibrateCamera, OfABentTemplateIsForTrackingAndSaysWhatWouldHelp) {
-  const TemporaryFolder folder;
-  write_target(folder);
-  // One side of the template stands 0.3 mm higher than its plane.
-  std::string bent = folder.read("near.csv");
+/// One side of the template in a points file comes nearer, by a share at its edge.
+void bend(const TemporaryFolder& folder, const std::string& name, double share) {
+  const std::string flat = folder.read(name);
   std::string text = "x_mm,y_mm,u_px,v_px\n";
-  for (std::size_t at = bent.find('\n') + 1; at < bent.size();) {
+  for (std::size_t at = flat.find('\n') + 1; at < flat.size(); at = flat.find('\n', at) + 1) {
     double x = 0.0;
     double y = 0.0;
     double u = 0.0;
     double v = 0.0;
-    ASSERT_EQ(std::sscanf(bent.c_str() + at, "%lf,%lf,%lf,%lf", &x, &y, &u, &v), 4);
-    const double nearer = x > 36.0 ? 1.0 + 0.004 * (x - 36.0) / 36.0 : 1.0;
+    ASSERT_EQ(std::sscanf(flat.c_str() + at, "%lf,%lf,%lf,%lf", &x, &y, &u, &v), 4);
+    const double nearer = x > 36.0 ? 1.0 + share * (x - 36.0) / 36.0 : 1.0;
     text += std::to_string(x) + "," + std::to_string(y) + "," +
             std::to_string(310.0 + (u - 310.0) * nearer) + "," +
             std::to_string(245.0 + (v - 245.0) * nearer) + "\n";
-    at = bent.find('\n', at) + 1;
   }
-  folder.write("near.csv", text);
+  folder.write(name, text);
+}
+
+TEST(CalibrateCamera, OfABentTemplateIsForTrackingAndSaysWhatWouldHelp) {
+  const TemporaryFolder folder;
+  write_target(folder);
+  bend(folder, "near.csv", 0.0005);  // 0.04 mm
 
   const ProgramRun run = run_tubesight(folder, {"calibrate", "camera", "t.toml"});
 
   ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("  they hang together: 0.01"), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("  good for             tracking and position correction only\n"
                          "  next                 a view tilted by 30 deg, the template's "),
             std::string::npos)
@@ -106,6 +110,19 @@ TEST(CalibrateCamera, OfABentTemplateIsForTrackingAndSaysWhatWouldHelp) {
   EXPECT_NE(run.out.find("    the map is known least around (639, 0): have dots there\n"),
             std::string::npos)
       << run.out;
+}
+
+TEST(CalibrateCamera, OfATemplateThatIsBentMoreIsRefusedAndWantsNoFurtherView) {
+  const TemporaryFolder folder;
+  write_target(folder);
+  bend(folder, "near.csv", 0.004);  // 0.3 mm
+
+  const ProgramRun run = run_tubesight(folder, {"calibrate", "camera", "t.toml"});
+
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("no calibration: the dots' errors hang together"), std::string::npos);
+  EXPECT_NE(run.out.find("  halves "), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("  next  "), std::string::npos) << run.out;
 }
 
 TEST(CalibrateCamera, DrawsWhatItFoundAlsoOfWhatIsRefused) {
@@ -125,10 +142,9 @@ TEST(CalibrateCamera, DrawsWhatItFoundAlsoOfWhatIsRefused) {
   run = run_tubesight(folder, {"calibrate", "camera", "t.toml", "--picture", "near.csv"});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err, "--picture: 'near.csv' is also a points file, expected a place of its own\n");
-  run = run_tubesight(folder, {"calibrate", "tool", "t.toml", "--picture", "x.png"});
+  run = run_tubesight(folder, {"calibrate", "links", "t.toml", "--picture", "x.png"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err,
-            "--picture: of a camera, a base or zones, expected calibrate camera, base or zones\n");
+  EXPECT_EQ(run.err, "--picture: of a camera, a tool, a base or zones, expected one of these\n");
 }
 
 TEST(CalibrateCamera, GoesToOpencvAndRosAndComesBack) {

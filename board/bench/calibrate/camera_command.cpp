@@ -1,7 +1,8 @@
 #include "board/bench/calibrate/camera_command.h"
 
-#include <array>
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "board/bench/calibrate/calibration_file.h"
@@ -10,9 +11,11 @@
 #include "board/bench/calibrate/camera_text.h"
 #include "board/bench/calibrate/camera_views.h"
 #include "board/bench/calibrate/honest_text.h"
+#include "board/bench/calibrate/points_file.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
 #include "core/calibration/camera_calibration.h"
+#include "core/calibration/camera_type.h"
 #include "core/calibration/halves.h"
 #include "core/calibration/next_view.h"
 #include "drivers/files/decimal.h"
@@ -32,23 +35,40 @@ struct Workspace {
   core::calibration::HalvesScratch halves;
 };
 
-/// What was found and what it is worth, as lines for a person; the verdict falls where the halves
-/// of the data contradict each other.
-std::string report_on(Workspace& work, CalibrationOutcome& outcome) {
+/// How well the halves of the data agree, as lines for a person; the verdict falls where they
+/// contradict each other.
+std::string judge_by_halves(Workspace& work, CalibrationOutcome& outcome) {
   const auto halves =
       core::calibration::compare_halves(work.data, work.state, outcome.freed, work.halves);
-  outcome.verdict = lowered_by(halves, outcome.verdict, outcome.map.rms_px);
-  const std::string more = halves_text(halves) + tip_text(work.data.sensor, work.state.camera,
-                                                          outcome.fit.camera_covariance);
-  const bool for_all = outcome.refusal == CalibrationRefusal::kNone &&
-                       outcome.verdict == core::calibration::Verdict::kBase;
+  outcome.verdict = lowered_by(halves, outcome.verdict, outcome.judged_px);
+  return halves_text(halves);
+}
+
+/// Whether one more view is what would help.
+bool wants_a_view(const CalibrationOutcome& outcome) {
+  switch (outcome.refusal) {
+    case CalibrationRefusal::kNone: return outcome.verdict != core::calibration::Verdict::kBase;
+    case CalibrationRefusal::kTooUncertain:
+    case CalibrationRefusal::kOneView: return true;
+    default: return false;
+  }
+}
+
+/// What was found and what it is worth, as lines for a person.
+std::string report_on(Workspace& work, const CalibrationOutcome& outcome, std::string more) {
+  // A pattern, and what tangential distortion leaves, count as they do for the verdict.
+  const double doubt = std::max(1.0, outcome.judged_px / outcome.map.rms_px);
+  more +=
+      tip_text(work.data.sensor, work.state.camera, doubt * doubt * outcome.fit.camera_covariance);
   const std::string next =
-      for_all ? ""
-              : next_text(find_next_view(work.data, work.state, outcome, work.halves), outcome.map);
+      wants_a_view(outcome)
+          ? next_text(find_next_view(work.data, work.state, outcome, work.halves), outcome.map)
+          : "";
   return camera_text(work.data, work.state, outcome, more, next);
 }
 
-/// Draws the views, and what there is of a calibration, where that is asked for.
+/// Draws the views, and what there is of a calibration, where that is asked for. Of a type's it is
+/// that of the camera seen.
 bool draw(const CalibrateCameraOptions& options, const Workspace& work,
           const CalibrationOutcome& outcome, const CameraViews& views) {
   if (options.picture.empty()) {
@@ -57,12 +77,17 @@ bool draw(const CalibrateCameraOptions& options, const Workspace& work,
   CameraPicture picture{work.data, work.state, outcome, views.thumbs(), {}};
   std::string& line = picture.caption.emplace_back();
   if (outcome.map.rms_px > 0.0) {
-    drivers::print(line, "map known to %.3f px RMS, %.3f at (%.0f, %.0f): ", outcome.map.rms_px,
-                   outcome.map.worst_px, outcome.map.worst_u_px, outcome.map.worst_v_px);
+    drivers::print(line, "%smap known to %.3f px RMS, %.3f at (%.0f, %.0f): ",
+                   options.type ? "this one's " : "", outcome.map.rms_px, outcome.map.worst_px,
+                   outcome.map.worst_u_px, outcome.map.worst_v_px);
   }
-  line += outcome.refusal == CalibrationRefusal::kNone
-              ? "good for " + std::string(use_of(outcome.verdict))
-              : "no calibration";
+  if (outcome.refusal != CalibrationRefusal::kNone) {
+    line += "no calibration";
+  } else if (options.type) {
+    line += "its type good for " + std::string(use_of(core::calibration::Verdict::kTracking));
+  } else {
+    line += "good for " + std::string(use_of(outcome.verdict));
+  }
   std::string message;
   if (!write_camera_picture(options.picture, picture, message)) {
     tell(message);
@@ -79,9 +104,45 @@ std::string find_conflict(const CalibrateCameraOptions& options, const drivers::
       inputs.push_back({"a picture", image});
     }
   }
-  return find_clash(
-      inputs, std::array{NamedPath{"--out", options.out}, NamedPath{"--picture", options.picture},
-                         NamedPath{"--export", options.exported}});
+  std::vector<NamedPath> outputs = {
+      {"--out", options.out}, {"--picture", options.picture}, {"--export", options.exported}};
+  if (!options.points.empty()) {
+    for (const std::string& path : points_files(options.points, file.views.size())) {
+      outputs.push_back({"--write-points", path});
+    }
+  }
+  return find_clash(inputs, outputs);
+}
+
+/// Whether there is anything to tell beside the reason why it is refused.
+bool tells_what_it_found(const CalibrationOutcome& outcome) {
+  switch (outcome.refusal) {
+    case CalibrationRefusal::kNone:
+    case CalibrationRefusal::kTooUncertain:
+    case CalibrationRefusal::kPattern:
+    case CalibrationRefusal::kOtherLens: return true;
+    case CalibrationRefusal::kOneView: return outcome.assumed;
+    default: return false;
+  }
+}
+
+/// Tells and draws what was found; with `--type` the outcome becomes the type's.
+bool tell_and_draw(const CalibrateCameraOptions& options, Workspace& work, const CameraViews& views,
+                   CalibrationOutcome& outcome) {
+  if (!tells_what_it_found(outcome)) {
+    return draw(options, work, outcome, views);
+  }
+  const std::string halves = judge_by_halves(work, outcome);
+  if (!options.type || outcome.refusal != CalibrationRefusal::kNone) {
+    return write_out(report_on(work, outcome, halves)) && draw(options, work, outcome, views);
+  }
+  CalibrationOutcome of_type = outcome;
+  widen_to_type(work.data.sensor, work.state.camera, {}, of_type);
+  // What the tip would be off by stands on the EFL that only a docking tells.
+  const bool good = write_out(camera_text(work.data, work.state, of_type, halves, "", true)) &&
+                    draw(options, work, outcome, views);
+  outcome = of_type;
+  return good;
 }
 
 }  // namespace
@@ -104,20 +165,20 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     tell(views.message());
     return status;
   }
+  if (!options.points.empty() && !write_points(options.points, file, work->data)) {
+    return ExitStatus::kJobFailed;
+  }
   CalibrationOutcome outcome =
       core::calibration::calibrate_camera(work->data, work->state, work->scratch);
-  if (outcome.refusal == CalibrationRefusal::kNone ||
-      outcome.refusal == CalibrationRefusal::kTooUncertain) {
-    if (!write_out(report_on(*work, outcome))) {
-      return ExitStatus::kJobFailed;
-    }
-  }
-  if (!draw(options, *work, outcome, views)) {
+  if (!tell_and_draw(options, *work, views, outcome)) {
     return ExitStatus::kJobFailed;
   }
   if (outcome.refusal != CalibrationRefusal::kNone) {
     tell(options.target + ": no calibration: " + std::string(explain(outcome.refusal)));
     return ExitStatus::kJobFailed;
+  }
+  if (options.type) {
+    file.device.serial.clear();
   }
   const core::CameraSettings camera = calibrated(file.camera, work->state.camera);
   if (!options.exported.empty()) {
@@ -127,7 +188,8 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     }
   }
   return options.out.empty() ||
-                 write_settings(options.out, camera_settings_text(camera, outcome, file.device))
+                 write_settings(options.out,
+                                camera_settings_text(camera, outcome, file.device, options.type))
              ? ExitStatus::kDone
              : ExitStatus::kJobFailed;
 }

@@ -21,16 +21,18 @@ namespace tubesight::board {
 
 /// Parameters with their standard deviations, what the residuals are, what the map is worth, the
 /// verdict: lines for a person. `more` stands before the verdict, `next`, which view to take,
-/// behind.
+/// behind. `type`: of all cameras of the type.
 [[nodiscard]] std::string camera_text(const core::calibration::CalibrationData& data,
                                       const core::calibration::CalibrationState& state,
                                       const core::calibration::CalibrationOutcome& outcome,
-                                      std::string_view more, std::string_view next);
+                                      std::string_view more, std::string_view next,
+                                      bool type = false);
 
 /// `[camera]` and `[camera_quality]` as a settings file; `device` says which camera it is, where
 /// that is known.
 [[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
                                                const core::calibration::CalibrationOutcome& outcome,
-                                               const drivers::CalibrationQuality& device);
+                                               const drivers::CalibrationQuality& device,
+                                               bool type = false);
 
 }  // namespace tubesight::board

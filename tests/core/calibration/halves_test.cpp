@@ -112,6 +112,23 @@ TEST_F(Halves, OfALensThatWasTurnedBetweenTheViewsDisagree) {
   EXPECT_GT(halves.off_px, 0.3);
 }
 
+TEST_F(Halves, OfABowedTemplateOnAStageAgree) {
+  // The bow is counted from the middle of the whole template: that of one side alone has the
+  // template lean, and a stage with it.
+  add_view(0.0, 0.0, 82.0, true, 0.0, 0.3);
+  add_view(0.0, 0.0, 112.0, true, 30.0, 0.3);
+  for (int i = 0; i < 4; ++i) {
+    add_view(25.0 * std::cos(1.6 * i), 25.0 * std::sin(1.6 * i), 95.0 + i, false, 0.0, 0.3);
+  }
+
+  const HalvesOutcome halves = compare();
+
+  EXPECT_TRUE(outcome_.freed.bow);
+  EXPECT_FALSE(outcome_.freed.stage_axis);
+  EXPECT_TRUE(halves.told);
+  EXPECT_LT(halves.sigmas(), kMostHalvesSigmas) << static_cast<int>(halves.split);
+}
+
 TEST_F(Halves, ThatContradictEachOtherLowerTheVerdict) {
   HalvesOutcome halves;
   halves.told = true;
