@@ -98,8 +98,11 @@ std::int32_t Lighting::wanted_permille(std::optional<std::int32_t> commanded, Fi
   const std::int32_t own =
       policy_.follows_picture ? control_.level_permille() : policy_.most_permille;
   const std::int32_t level = std::min(commanded.value_or(own), policy_.most_permille);
-  return policy_.pattern ? swung_permille(level, pattern_.sign_after(now), policy_.most_permille)
-                         : level;
+  if (!policy_.pattern) {
+    return level;
+  }
+  const std::int32_t share = watch_.lamp_is_slow() ? kSlowSwing_permille : kSwing_permille;
+  return swung_permille(level, pattern_.sign_after(now), share, policy_.most_permille);
 }
 
 LampCondition Lighting::condition() const {

@@ -13,6 +13,8 @@ constexpr std::array<FieldTime, kSpans> kSpan = {std::chrono::milliseconds(60),
 constexpr FieldTime kUneven = std::chrono::milliseconds(8);
 /// What changes faster than this is on its way to another place.
 constexpr std::int32_t kMostChange_q16 = 3277;  // 5 %
+/// The same of the level: a slow lamp's swing is looked at with short lags, too.
+constexpr std::int32_t kMostBend_q16 = 5898;  // 9 %
 constexpr std::int64_t kMostScatter_q32 = std::int64_t{kMostChange_q16} * kMostChange_q16;
 constexpr FieldTime kBlock = std::chrono::milliseconds(250);
 /// Longer without a field, and nothing is led through a lag any more.
@@ -157,8 +159,8 @@ void PatternWatch::sample(const Moment& now, std::size_t span, std::int64_t scat
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const std::int64_t level = middle->level_q16[lag];
     const std::int64_t bend = now.level_q16[lag] - 2 * level + first->level_q16[lag];
-    v[lag] = level > 0 ? bend * 65'536 / level : kMostChange_q16 + 1;
-    if (v[lag] > kMostChange_q16 || v[lag] < -kMostChange_q16) {
+    v[lag] = level > 0 ? bend * 65'536 / level : kMostBend_q16 + 1;
+    if (v[lag] > kMostBend_q16 || v[lag] < -kMostBend_q16) {
       return;
     }
   }

@@ -52,6 +52,11 @@ class PatternWatch {
     return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
   }
 
+  /// Whether the lamp was seen to follow with so long a lag that little of a swing is left.
+  [[nodiscard]] bool lamp_is_slow() const {
+    return learnt_lag_ >= 0 && span_of(static_cast<std::size_t>(learnt_lag_)) > 0;
+  }
+
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
   /// deviations, 1/16; 0: it was not. For the study of false alarms.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
