@@ -9,10 +9,11 @@ namespace tubesight::core::lighting {
 /// How long a level of the pattern is held: some fields, as a lamp follows with a lag.
 inline constexpr FieldTime kChip = std::chrono::milliseconds(50);
 
-/// How far the level swings to either side: as little as a lamp needs that follows at once, and as
-/// one needs that follows so slowly that a quarter of the swing is left of it.
+/// How far the level swings to either side: as little as a lamp needs that is seen to follow soon,
+/// and the most, until that is seen and of a lamp that follows so slowly that a quarter of it is
+/// left.
 inline constexpr std::int32_t kSwing_permille = 10;
-inline constexpr std::int32_t kSlowSwing_permille = 20;
+inline constexpr std::int32_t kWideSwing_permille = 20;
 
 /// The order of brighter and dimmer that a lamp's level swings in: the bits of a shift register
 /// with feedback [x^31 + x^28 + 1], which come back after 3.4 years of 50 ms each. Boxes begin it

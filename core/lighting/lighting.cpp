@@ -65,7 +65,7 @@ void Lighting::Lasting::follow(bool so, FieldTime now, FieldTime enough) {
 
 void Lighting::Breakdown::follow(const Field& field, std::optional<std::int32_t> change_q16) {
   const std::int32_t off = std::abs(field.lamp_permille - level_permille_);
-  if (off * 20 > level_permille_) {
+  if (off * 20 > level_permille_ || field.mid_exposure < steady_since_) {
     level_permille_ = field.lamp_permille;
     steady_since_ = field.mid_exposure;
   }
@@ -101,7 +101,7 @@ std::int32_t Lighting::wanted_permille(std::optional<std::int32_t> commanded, Fi
   if (!policy_.pattern) {
     return level;
   }
-  const std::int32_t share = watch_.lamp_is_slow() ? kSlowSwing_permille : kSwing_permille;
+  const std::int32_t share = watch_.needs_wide_swing() ? kWideSwing_permille : kSwing_permille;
   return swung_permille(level, pattern_.sign_after(now), share, policy_.most_permille);
 }
 

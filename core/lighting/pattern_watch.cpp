@@ -13,7 +13,7 @@ constexpr std::array<FieldTime, kSpans> kSpan = {std::chrono::milliseconds(60),
 constexpr FieldTime kUneven = std::chrono::milliseconds(8);
 /// What changes faster than this is on its way to another place.
 constexpr std::int32_t kMostChange_q16 = 3277;  // 5 %
-/// The same of the level: a slow lamp's swing is looked at with short lags, too.
+/// The same of a second difference: the wide swing of a lamp without lag.
 constexpr std::int32_t kMostBend_q16 = 5898;  // 9 %
 constexpr std::int64_t kMostScatter_q32 = std::int64_t{kMostChange_q16} * kMostChange_q16;
 constexpr FieldTime kBlock = std::chrono::milliseconds(250);
@@ -23,6 +23,11 @@ constexpr FieldTime kPause = std::chrono::milliseconds(500);
 /// Fields that tell as much as one, as neighbouring differences share their fields; measured by
 /// tests/benchmark/lamp_study.cpp.
 constexpr std::int64_t kDependent = 2;
+/// The same while the tool moves, as what the tube-ends' light does on the way is alike for some
+/// fields, and more so over the longer span of a slow lamp. The tube-ends differ among themselves
+/// then by more than half of what their mean leaves over.
+constexpr std::array<std::int64_t, kSpans> kDependentMoving = {4, 8};
+constexpr std::int64_t kOwnNoise = 2;
 /// The same of another lamp with a pattern of such chips, and the most that it leaves over: a
 /// swing larger than ours by the half.
 constexpr std::int64_t kDependentOfAnother = 4;
@@ -49,12 +54,12 @@ constexpr std::int32_t kAllTheLamps_q10 = 922;  // 90 %
 constexpr std::int32_t kLeastGain_q10 = 123;  // 12 %
 // Deviations that are certain, in 1/16. Each answer is as far from what the other would show as
 // false alarms are to be rare, and on its own side of the limit between them.
-constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;  // the lag is chosen among several
-constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;   // proved: a picture that knows nothing, g = 0
-constexpr std::int32_t kFromSound_q4 = 6 * 16;      // failed: a sound lamp, g as learnt
+constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;   // the lag is chosen among several
+constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;    // proved: a picture that knows nothing, g = 0
+constexpr std::int32_t kFromSound_q4 = 21 * 16 / 4;  // failed: a sound lamp, g as learnt
 constexpr std::int32_t kAboveLimit_q4 = 16;
 constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
-constexpr std::int32_t kFirstBelowLimit_q4 = 4 * 16;
+constexpr std::int32_t kFirstBelowLimit_q4 = 6 * 16;
 constexpr std::int32_t kMostUndecided = 40;  // blocks: 10 s
 
 constexpr std::int64_t integer_root(std::int64_t value) {
@@ -154,7 +159,7 @@ void PatternWatch::sample(const Moment& now, std::size_t span, std::int64_t scat
     return;
   }
   const std::int64_t u = std::clamp(now.light_q16 - 2 * middle->light_q16 + first->light_q16,
-                                    -kMostChange_q16, kMostChange_q16);
+                                    -kMostBend_q16, kMostBend_q16);
   std::array<std::int64_t, kLags> v{};
   for (std::size_t lag = 0; lag < kLags; ++lag) {
     const std::int64_t level = middle->level_q16[lag];
@@ -218,7 +223,7 @@ void PatternWatch::close_block() {
   // The shortest time that is enough to be certain.
   Liveness told = Liveness::kUnknown;
   for (const std::int32_t blocks : {kShortBlocks, kMiddleBlocks, kBlocks}) {
-    told = judge(sum_of(blocks));
+    told = judge(sum_of(blocks), blocks);
     if (told != Liveness::kUnknown) {
       break;
     }
@@ -232,7 +237,8 @@ void PatternWatch::close_block() {
 // Least squares of u = g v. What is left over, r = u - g v, says how well g is known: its variance
 // is D mean(r^2) / sum(v^2), D being how many fields tell as much as one of their own. Against a
 // picture that knows nothing of the lamp as much of r as another lamp with a pattern would make
-// counts with that pattern's D. Against a sound lamp r counts up to what noise was learnt to leave.
+// counts with that pattern's D. Against a sound lamp r counts up to what noise was learnt to leave,
+// and below that the fewer fields say it, the less it is worth.
 PatternWatch::Gain PatternWatch::gain_of(const Sums& sums, std::size_t lag) const {
   Gain gain;
   const Sums::OfSpan& of_span = sums.spans[span_of(lag)];
@@ -258,12 +264,19 @@ PatternWatch::Gain PatternWatch::gain_of(const Sums& sums, std::size_t lag) cons
   gain.from_none_q10 = deviation_q10(from_none);
   gain.tail_q4 =
       static_cast<std::int32_t>(kTail_q4 * from_none / (std::max<std::int64_t>(rest, 1) * count));
-  std::int64_t noise = rest;
+  const std::int64_t dependent =
+      rest >= kOwnNoise * scatter ? kDependent : kDependentMoving[span_of(lag)];
+  std::int64_t from_sound = dependent * rest;
+  gain.sound_tail_q4 = static_cast<std::int32_t>(kTail_q4 * dependent / count);
   if (noise_ratio_q10_ > 0) {
     const std::int64_t ratio_q10 = std::max(noise_ratio_q10_, kLeastRatio_q10);
-    noise = std::min(rest, (scatter * ratio_q10 >> 10) * 3 / 2 + vv / kOfLag);
+    const std::int64_t most = (scatter * ratio_q10 >> 10) * 3 / 2 + vv / kOfLag;
+    if (rest > most) {
+      from_sound = kDependent * most;
+      gain.sound_tail_q4 = 0;  // known, whatever these fields are like
+    }
   }
-  gain.from_sound_q10 = deviation_q10(kDependent * noise);
+  gain.from_sound_q10 = deviation_q10(from_sound);
   gain.count = count;
   gain.rest = rest;
   gain.all = uu;
@@ -286,13 +299,18 @@ std::int32_t PatternWatch::expected_q10() const {
   return static_cast<std::int32_t>(lamp + other > 0 ? lamp * 1024 / (lamp + other) : 0);
 }
 
-Liveness PatternWatch::judge(const Sums& sums) {
+// What a sound lamp's gain is was learnt over kBlocks, and no better known than those say: beside
+// the deviation of the fields that are judged stands that of the ones that were learnt from.
+Liveness PatternWatch::judge(const Sums& sums, std::int32_t blocks) {
   const Gain gain = learnt_lag_ < 0 ? Gain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
   if (!gain.known) {
     return judge_unlearnt(sums);
   }
   const std::int32_t expected = expected_q10();
-  const std::int32_t from_sound = (gain.q10 - expected) * 16 / gain.from_sound_q10;
+  const std::int64_t deviation_q20 =
+      gain.from_sound_q10 * integer_root((std::int64_t{kBlocks + blocks} << 20) / kBlocks);
+  const auto from_sound = static_cast<std::int32_t>(
+      std::int64_t{gain.q10 - expected} * (16 * 1024) / deviation_q20 + gain.sound_tail_q4);
   score_q4_ = noise_ratio_q10_ > 0 ? std::min(score_q4_, from_sound) : 0;
   if (gain.above_q4(0) >= kFromNone_q4 + gain.tail_q4 &&
       gain.above_q4(std::max(expected / 2, kLeastGain_q10)) >= kAboveLimit_q4) {
@@ -313,7 +331,7 @@ Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
     if (gain.above_q4(0) >= kFirstFromNone_q4 + gain.tail_q4 && above >= kFirstAboveLimit_q4) {
       return Liveness::kProved;
     }
-    none = none && above <= -kFirstBelowLimit_q4;
+    none = none && above <= -kFirstBelowLimit_q4 - gain.tail_q4;
   }
   return none ? Liveness::kFailed : Liveness::kUnknown;
 }

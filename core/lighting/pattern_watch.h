@@ -52,13 +52,16 @@ class PatternWatch {
     return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
   }
 
-  /// Whether the lamp was seen to follow with so long a lag that little of a swing is left.
-  [[nodiscard]] bool lamp_is_slow() const {
-    return learnt_lag_ >= 0 && span_of(static_cast<std::size_t>(learnt_lag_)) > 0;
+  /// Whether a small swing is not known to be enough: the picture is not proved now, or the lamp
+  /// was seen to follow with so long a lag that little of a swing is left.
+  [[nodiscard]] bool needs_wide_swing() const {
+    return liveness_ != Liveness::kProved || learnt_lag_ < 0 ||
+           span_of(static_cast<std::size_t>(learnt_lag_)) > 0;
   }
 
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
-  /// deviations, 1/16; 0: it was not. For the study of false alarms.
+  /// deviations, 1/16, less those that few fields are allowed beside; 0: it was not. For the study
+  /// of false alarms, one of which needs -84.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
   [[nodiscard]] std::uint32_t looks() const { return next_block_; }
 
@@ -133,6 +136,7 @@ class PatternWatch {
     std::int32_t from_none_q10 = 0;   ///< its deviation in a picture that knows nothing of the lamp
     std::int32_t from_sound_q10 = 0;  ///< and in that of a sound one
     std::int32_t tail_q4 = 0;         ///< further deviations that few fields need to be certain
+    std::int32_t sound_tail_q4 = 0;   ///< the same against a sound lamp
     std::int64_t count = 0;           ///< fields
     std::int64_t rest = 0;            ///< what it does not explain: sum of squares, 1/2^24
     std::int64_t all = 0;             ///< and explains: sum(uu)
@@ -155,7 +159,7 @@ class PatternWatch {
   [[nodiscard]] Sums sum_of(std::int32_t blocks) const;
   [[nodiscard]] Gain gain_of(const Sums& sums, std::size_t lag) const;
   [[nodiscard]] std::int32_t expected_q10() const;
-  [[nodiscard]] Liveness judge(const Sums& sums);
+  [[nodiscard]] Liveness judge(const Sums& sums, std::int32_t blocks);
   [[nodiscard]] Liveness judge_unlearnt(const Sums& sums);
   void learn(const Sums& sums);
   [[nodiscard]] std::int32_t likeliest_lag(const Sums& sums) const;

@@ -74,7 +74,7 @@ class WatchedLamp : public testing::Test {
   }
 
   [[nodiscard]] std::int32_t swing_permille() const {
-    return watch_.lamp_is_slow() ? kSlowSwing_permille : kSwing_permille;
+    return watch_.needs_wide_swing() ? kWideSwing_permille : kSwing_permille;
   }
 
   /// It swings as ours does, with the same lag, at times of its own.
@@ -108,18 +108,21 @@ TEST_F(WatchedLamp, IsProvedWithinTwoSecondsAtRest) {
   }
 }
 
-// A lamp that follows with a long lag swings more, once that is known; one that does not, does not.
-TEST_F(WatchedLamp, IsKnownToBeSlow) {
-  EXPECT_FALSE(watch_.lamp_is_slow());
+// Until it is seen to follow, and for longer where it does so with a long lag.
+TEST_F(WatchedLamp, SwingsAsWideAsItNeeds) {
+  EXPECT_TRUE(watch_.needs_wide_swing());
   static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.05}));
-  EXPECT_FALSE(watch_.lamp_is_slow());
+  EXPECT_FALSE(watch_.needs_wide_swing());
+  static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.05, .frozen = true}));
+  EXPECT_TRUE(watch_.needs_wide_swing()) << "what is not seen";
   watch_.begin();
   static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.2}));
-  EXPECT_TRUE(watch_.lamp_is_slow());
+  EXPECT_EQ(watch_.liveness(), Liveness::kProved);
+  EXPECT_TRUE(watch_.needs_wide_swing());
   // Another bulb, which follows at once: the larger swing does not hide it.
   static_cast<void>(run_until(Liveness::kFailed, 30.0, {.lag_s = 0.02}));
   EXPECT_EQ(watch_.liveness(), Liveness::kProved);
-  EXPECT_FALSE(watch_.lamp_is_slow());
+  EXPECT_FALSE(watch_.needs_wide_swing());
 }
 
 TEST_F(WatchedLamp, IsProvedWithinTenSecondsWhileMoving) {
