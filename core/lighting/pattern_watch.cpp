@@ -20,34 +20,10 @@ constexpr FieldTime kBlock = std::chrono::milliseconds(250);
 /// Longer without a field, and nothing is led through a lag any more.
 constexpr FieldTime kPause = std::chrono::milliseconds(500);
 
-/// Fields that tell as much as one, as neighbouring differences share their fields; measured by
-/// tests/benchmark/lamp_study.cpp.
-constexpr std::int64_t kDependent = 2;
-/// The same while the tool moves, as what the tube-ends' light does on the way is alike for some
-/// fields, and more so over the longer span of a slow lamp. The tube-ends differ among themselves
-/// then by more than half of what their mean leaves over.
-constexpr std::array<std::int64_t, kSpans> kDependentMoving = {4, 8};
-constexpr std::int64_t kOwnNoise = 2;
-/// The same of another lamp with a pattern of such chips, and the most that it leaves over: a
-/// swing larger than ours by the half.
-constexpr std::int64_t kDependentOfAnother = 4;
-constexpr std::int64_t kMostOfAnother = 2;
-/// What noise leaves over is 6 / 2 of the scatter of a change, from theory, and at rest; less while
-/// the tool moves. More where all light flickers: that is learnt.
-constexpr std::int32_t kLeastRatio_q10 = 3 * 1024;
-/// Of a lag that is none of those tried: a sixteenth of the pattern.
-constexpr std::int64_t kOfLag = 16;
 /// The likelihoods of two lags differ by e^4 where the one leaves over so much less, over the
 /// number of fields.
 constexpr std::int64_t kClearlyLess = 16;
 constexpr std::int64_t kFieldsToLearn = 200;
-/// The fewer fields, the likelier is a correlation by chance: Student's distribution has tails.
-/// Added to the deviations that are certain: 60 over the fields that tell of their own.
-constexpr std::int64_t kTail_q4 = 60 * 16;
-constexpr std::int64_t kFewestFields = 24;
-/// A level that changes less (0.05 %) shows nothing.
-constexpr std::int64_t kLeastSquare_q16 = 33 * 33;
-
 /// From here on there is no other light worth the name.
 constexpr std::int32_t kAllTheLamps_q10 = 922;  // 90 %
 /// While nothing was proved: what other light may leave to the lamp.
@@ -61,16 +37,6 @@ constexpr std::int32_t kAboveLimit_q4 = 16;
 constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
 constexpr std::int32_t kFirstBelowLimit_q4 = 6 * 16;
 constexpr std::int32_t kMostUndecided = 40;  // blocks: 10 s
-
-constexpr std::int64_t integer_root(std::int64_t value) {
-  std::int64_t root = 0;
-  for (std::int64_t bit = std::int64_t{1} << 30; bit > 0; bit >>= 1) {
-    if ((root + bit) * (root + bit) <= value) {
-      root += bit;
-    }
-  }
-  return root;
-}
 
 }  // namespace
 
@@ -169,7 +135,7 @@ void PatternWatch::sample(const Moment& now, std::size_t span, std::int64_t scat
       return;
     }
   }
-  Sums::OfSpan& sums = now_.spans[span];
+  PatternSums::OfSpan& sums = now_.spans[span];
   ++sums.count;
   sums.uu += u * u;
   sums.scatter += scatter_q32;
@@ -181,20 +147,8 @@ void PatternWatch::sample(const Moment& now, std::size_t span, std::int64_t scat
   }
 }
 
-void PatternWatch::Sums::add(const Sums& other) {
-  for (std::size_t span = 0; span < kSpans; ++span) {
-    spans[span].count += other.spans[span].count;
-    spans[span].uu += other.spans[span].uu;
-    spans[span].scatter += other.spans[span].scatter;
-  }
-  for (std::size_t lag = 0; lag < kLags; ++lag) {
-    uv[lag] += other.uv[lag];
-    vv[lag] += other.vv[lag];
-  }
-}
-
-PatternWatch::Sums PatternWatch::sum_of(std::int32_t blocks) const {
-  Sums sums;
+PatternSums PatternWatch::sum_of(std::int32_t blocks) const {
+  PatternSums sums;
   for (std::uint32_t back = 1; back <= static_cast<std::uint32_t>(blocks); ++back) {
     sums.add(blocks_[(next_block_ - back) % kBlocks]);
   }
@@ -234,59 +188,6 @@ void PatternWatch::close_block() {
   }
 }
 
-// Least squares of u = g v. What is left over, r = u - g v, says how well g is known: its variance
-// is D mean(r^2) / sum(v^2), D being how many fields tell as much as one of their own. Against a
-// picture that knows nothing of the lamp as much of r as another lamp with a pattern would make
-// counts with that pattern's D. Against a sound lamp r counts up to what noise was learnt to leave,
-// and below that the fewer fields say it, the less it is worth.
-PatternWatch::Gain PatternWatch::gain_of(const Sums& sums, std::size_t lag) const {
-  Gain gain;
-  const Sums::OfSpan& of_span = sums.spans[span_of(lag)];
-  const std::int64_t count = of_span.count;
-  if (count < kFewestFields || sums.vv[lag] < count * kLeastSquare_q16) {
-    return gain;
-  }
-  const std::int64_t uu = of_span.uu >> 8;
-  const std::int64_t uv = sums.uv[lag] >> 8;
-  const std::int64_t vv = std::max<std::int64_t>(sums.vv[lag] >> 8, 1);
-  const std::int64_t explained = uv * uv / vv;
-  const std::int64_t rest = std::max<std::int64_t>(uu - explained, 0);
-  constexpr std::int64_t kFar_q10 = 64 * 1024;
-  gain.known = true;
-  gain.q10 = static_cast<std::int32_t>(std::clamp(uv * 1024 / vv, -kFar_q10, kFar_q10));
-  const auto deviation_q10 = [&](std::int64_t squares) {
-    return static_cast<std::int32_t>(integer_root((squares << 20) / (count * vv))) + 1;
-  };
-  const std::int64_t scatter = of_span.scatter >> 8;
-  const std::int64_t anothers =
-      std::clamp<std::int64_t>(rest - scatter, 0, std::min(rest, kMostOfAnother * vv));
-  const std::int64_t from_none = kDependent * (rest - anothers) + kDependentOfAnother * anothers;
-  gain.from_none_q10 = deviation_q10(from_none);
-  gain.tail_q4 =
-      static_cast<std::int32_t>(kTail_q4 * from_none / (std::max<std::int64_t>(rest, 1) * count));
-  const std::int64_t dependent =
-      rest >= kOwnNoise * scatter ? kDependent : kDependentMoving[span_of(lag)];
-  std::int64_t from_sound = dependent * rest;
-  gain.sound_tail_q4 = static_cast<std::int32_t>(kTail_q4 * dependent / count);
-  if (noise_ratio_q10_ > 0) {
-    const std::int64_t ratio_q10 = std::max(noise_ratio_q10_, kLeastRatio_q10);
-    const std::int64_t most = (scatter * ratio_q10 >> 10) * 3 / 2 + vv / kOfLag;
-    if (rest > most) {
-      from_sound = kDependent * most;
-      gain.sound_tail_q4 = 0;  // known, whatever these fields are like
-    }
-  }
-  gain.from_sound_q10 = deviation_q10(from_sound);
-  gain.count = count;
-  gain.rest = rest;
-  gain.all = uu;
-  return gain;
-}
-
-std::int32_t PatternWatch::Gain::above_q4(std::int32_t limit_q10) const {
-  return known ? (q10 - limit_q10) * 16 / from_none_q10 : 0;
-}
-
 // Light that is not the lamp's stays when the lamp is dimmed: g = k L / (a + k L), and a / k was
 // learnt with another level L. More than 1 comes of a lag that is longer than the lamp's, and is as
 // it is.
@@ -301,8 +202,9 @@ std::int32_t PatternWatch::expected_q10() const {
 
 // What a sound lamp's gain is was learnt over kBlocks, and no better known than those say: beside
 // the deviation of the fields that are judged stands that of the ones that were learnt from.
-Liveness PatternWatch::judge(const Sums& sums, std::int32_t blocks) {
-  const Gain gain = learnt_lag_ < 0 ? Gain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
+Liveness PatternWatch::judge(const PatternSums& sums, std::int32_t blocks) {
+  const PatternGain gain =
+      learnt_lag_ < 0 ? PatternGain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
   if (!gain.known) {
     return judge_unlearnt(sums);
   }
@@ -323,10 +225,10 @@ Liveness PatternWatch::judge(const Sums& sums, std::int32_t blocks) {
 }
 
 // With any of the lags, or with none of them.
-Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
+Liveness PatternWatch::judge_unlearnt(const PatternSums& sums) {
   bool none = true;
   for (std::size_t lag = 0; lag < kLags; ++lag) {
-    const Gain gain = gain_of(sums, lag);
+    const PatternGain gain = gain_of(sums, lag);
     const std::int32_t above = gain.above_q4(kLeastGain_q10);
     if (gain.above_q4(0) >= kFirstFromNone_q4 + gain.tail_q4 && above >= kFirstAboveLimit_q4) {
       return Liveness::kProved;
@@ -337,11 +239,11 @@ Liveness PatternWatch::judge_unlearnt(const Sums& sums) {
 }
 
 // The one that leaves over least; one that was learnt stays until another is clearly likelier.
-std::int32_t PatternWatch::likeliest_lag(const Sums& sums) const {
+std::int32_t PatternWatch::likeliest_lag(const PatternSums& sums) const {
   std::int32_t best = learnt_lag_;
-  Gain gain = best < 0 ? Gain{} : gain_of(sums, static_cast<std::size_t>(best));
+  PatternGain gain = best < 0 ? PatternGain{} : gain_of(sums, static_cast<std::size_t>(best));
   for (std::size_t lag = 0; lag < kLags; ++lag) {
-    const Gain other = gain_of(sums, lag);
+    const PatternGain other = gain_of(sums, lag);
     if (!other.known || other.q10 <= 0) {
       continue;
     }
@@ -355,12 +257,12 @@ std::int32_t PatternWatch::likeliest_lag(const Sums& sums) const {
   return best;
 }
 
-void PatternWatch::learn(const Sums& sums) {
+void PatternWatch::learn(const PatternSums& sums) {
   const std::int32_t best = likeliest_lag(sums);
   if (best < 0) {
     return;
   }
-  const Gain gain = gain_of(sums, static_cast<std::size_t>(best));
+  const PatternGain gain = gain_of(sums, static_cast<std::size_t>(best));
   if (gain.above_q4(0) < kFirstFromNone_q4) {
     return;
   }
@@ -383,7 +285,7 @@ void PatternWatch::learn(const Sums& sums) {
 
 // Slowly up, so that what another picture leaves over does not pass for noise before it is found
 // out, and much more slowly down, as a tool that moves makes more of it than one at rest.
-void PatternWatch::learn_noise(const Gain& gain, const Sums& sums) {
+void PatternWatch::learn_noise(const PatternGain& gain, const PatternSums& sums) {
   const std::size_t span = span_of(static_cast<std::size_t>(learnt_lag_));
   const std::int64_t scatter = std::max<std::int64_t>(sums.spans[span].scatter >> 8, 1);
   const auto seen = static_cast<std::int32_t>(

@@ -9,16 +9,9 @@
 #include "core/base/field.h"
 #include "core/base/sighting.h"
 #include "core/lighting/brightness_trail.h"
+#include "core/lighting/pattern_gain.h"
 
 namespace tubesight::core::lighting {
-
-/// Lags of a lamp that are tried: time constants of the first order. An LED has none, a small
-/// incandescent bulb some tenths of a second.
-inline constexpr std::array<std::int32_t, 5> kLags_us = {0, 30'000, 70'000, 130'000, 220'000};
-inline constexpr std::size_t kLags = kLags_us.size();
-/// Differences are taken over so long: a slow lamp needs longer to show more than noise.
-inline constexpr std::size_t kSpans = 2;
-[[nodiscard]] constexpr std::size_t span_of(std::size_t lag) { return lag < 3 ? 0 : 1; }
 
 /// Whether the brightness of the picture follows the levels of the lamp that were in force.
 ///
@@ -94,57 +87,6 @@ class PatternWatch {
     }
   };
 
-  /// Sums over some time of numbers in 1/65536.
-  struct Sums {
-    struct OfSpan {
-      std::int64_t count = 0;
-      std::int64_t uu = 0;
-      std::int64_t scatter = 0;  ///< squares of the brightness's deviation
-
-      template <typename Self, typename Stream>
-      static void transfer(Self& self, Stream& stream) {
-        auto& [n, squares, deviations] = self;
-        stream.number(n, 0, 1 << 20);
-        stream.number(squares, 0, kMostSum);
-        stream.number(deviations, 0, kMostSum);
-      }
-    };
-    static constexpr std::int64_t kMostSum = std::int64_t{1} << 40;
-
-    std::array<OfSpan, kSpans> spans{};
-    std::array<std::int64_t, kLags> uv{};
-    std::array<std::int64_t, kLags> vv{};
-
-    void add(const Sums& other);
-    template <typename Self, typename Stream>
-    static void transfer(Self& self, Stream& stream) {
-      auto& [of_spans, products, levels] = self;
-      stream(of_spans);
-      for (auto& one : products) {
-        stream.number(one, -kMostSum, kMostSum);
-      }
-      for (auto& one : levels) {
-        stream.number(one, 0, kMostSum);
-      }
-    }
-  };
-
-  /// What sums say of the gain with one lag.
-  struct Gain {
-    bool known = false;
-    std::int32_t q10 = 0;             ///< 1024: all light is the lamp's
-    std::int32_t from_none_q10 = 0;   ///< its deviation in a picture that knows nothing of the lamp
-    std::int32_t from_sound_q10 = 0;  ///< and in that of a sound one
-    std::int32_t tail_q4 = 0;         ///< further deviations that few fields need to be certain
-    std::int32_t sound_tail_q4 = 0;   ///< the same against a sound lamp
-    std::int64_t count = 0;           ///< fields
-    std::int64_t rest = 0;            ///< what it does not explain: sum of squares, 1/2^24
-    std::int64_t all = 0;             ///< and explains: sum(uu)
-
-    /// So many deviations above `limit_q10`, in 1/16.
-    [[nodiscard]] std::int32_t above_q4(std::int32_t limit_q10) const;
-  };
-
   static constexpr std::int32_t kMostRatio_q10 = 1 << 24;
   static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
   static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
@@ -156,14 +98,16 @@ class PatternWatch {
                                      std::uint32_t& place) const;
   void keep_to_level();
   void close_block();
-  [[nodiscard]] Sums sum_of(std::int32_t blocks) const;
-  [[nodiscard]] Gain gain_of(const Sums& sums, std::size_t lag) const;
+  [[nodiscard]] PatternSums sum_of(std::int32_t blocks) const;
+  [[nodiscard]] PatternGain gain_of(const PatternSums& sums, std::size_t lag) const {
+    return core::lighting::gain_of(sums, lag, noise_ratio_q10_);
+  }
   [[nodiscard]] std::int32_t expected_q10() const;
-  [[nodiscard]] Liveness judge(const Sums& sums, std::int32_t blocks);
-  [[nodiscard]] Liveness judge_unlearnt(const Sums& sums);
-  void learn(const Sums& sums);
-  [[nodiscard]] std::int32_t likeliest_lag(const Sums& sums) const;
-  void learn_noise(const Gain& gain, const Sums& sums);
+  [[nodiscard]] Liveness judge(const PatternSums& sums, std::int32_t blocks);
+  [[nodiscard]] Liveness judge_unlearnt(const PatternSums& sums);
+  void learn(const PatternSums& sums);
+  [[nodiscard]] std::int32_t likeliest_lag(const PatternSums& sums) const;
+  void learn_noise(const PatternGain& gain, const PatternSums& sums);
   void hold(Liveness told);
 
   std::array<std::int32_t, kLags> level_q16_{};  ///< led through each lag
@@ -175,9 +119,9 @@ class PatternWatch {
 
   std::array<Moment, kMoments> moments_{};
   std::uint32_t next_moment_ = 0;
-  Sums now_{};  ///< of the block that is not full yet
+  PatternSums now_{};  ///< of the block that is not full yet
   FieldTime block_until_{0};
-  std::array<Sums, kBlocks> blocks_{};
+  std::array<PatternSums, kBlocks> blocks_{};
   std::uint32_t next_block_ = 0;
   std::int32_t blocks_permille_ = 0;  ///< the level that they are about of
 
