@@ -51,6 +51,9 @@ void Lighting::look(const Look& look) {
     lights_.clear();  // no tube-ends
   }
   fall_.follow({&field, change, &lights_, look.still, watch_.share_q10()});
+  if (watch_.wants_level()) {
+    return;  // the picture may be another lamp's
+  }
   static_cast<void>(control_.follow(field, lights_, policy_.most_permille));
 }
 

@@ -21,8 +21,6 @@ constexpr std::int64_t kMostOfAnother = 2;
 /// What noise leaves over is 6 / 2 of the scatter of a change, from theory, and at rest; less while
 /// the tool moves. More where all light flickers: that is learnt.
 constexpr std::int32_t kLeastRatio_q10 = 3 * 1024;
-/// Of a lag that is none of those tried: a sixteenth of the pattern.
-constexpr std::int64_t kOfLag = 16;
 /// The fewer fields, the likelier is a correlation by chance: Student's distribution has tails.
 /// Added to the deviations that are certain: 60 over the fields that tell of their own.
 constexpr std::int64_t kTail_q4 = 60 * 16;
@@ -90,7 +88,7 @@ PatternGain gain_of(const PatternSums& sums, std::size_t lag, std::int32_t noise
   gain.sound_tail_q4 = static_cast<std::int32_t>(kTail_q4 * dependent / count);
   if (noise_ratio_q10 > 0) {
     const std::int64_t ratio_q10 = std::max(noise_ratio_q10, kLeastRatio_q10);
-    const std::int64_t most = (scatter * ratio_q10 >> 10) * 3 / 2 + vv / kOfLag;
+    const std::int64_t most = (scatter * ratio_q10 >> 10) * 3 / 2 + of_lag(vv);
     if (rest > most) {
       from_sound = kDependent * most;
       gain.sound_tail_q4 = 0;  // known, whatever these fields are like

@@ -72,6 +72,9 @@ struct PatternGain {
 [[nodiscard]] PatternGain gain_of(const PatternSums& sums, std::size_t lag,
                                   std::int32_t noise_ratio_q10);
 
+/// What a lag that is none of those tried leaves over at most, of the pattern's sum of squares.
+[[nodiscard]] constexpr std::int64_t of_lag(std::int64_t vv) { return vv / 16; }
+
 /// The root, rounded down.
 [[nodiscard]] std::int64_t integer_root(std::int64_t value);
 

@@ -16,6 +16,9 @@ constexpr std::int32_t kMostChange_q16 = 3277;  // 5 %
 /// The same of a second difference: the wide swing of a lamp without lag.
 constexpr std::int32_t kMostBend_q16 = 5898;  // 9 %
 constexpr std::int64_t kMostScatter_q32 = std::int64_t{kMostChange_q16} * kMostChange_q16;
+/// A cut: changes that differ by 0.7 % and four times as much as usual.
+constexpr std::int64_t kLeastCut_q32 = 459 * 459;
+constexpr std::int64_t kCut = 16;
 constexpr FieldTime kBlock = std::chrono::milliseconds(250);
 /// Longer without a field, and nothing is led through a lag any more.
 constexpr FieldTime kPause = std::chrono::milliseconds(500);
@@ -23,7 +26,7 @@ constexpr FieldTime kPause = std::chrono::milliseconds(500);
 /// The likelihoods of two lags differ by e^4 where the one leaves over so much less, over the
 /// number of fields.
 constexpr std::int64_t kClearlyLess = 16;
-constexpr std::int64_t kFieldsToLearn = 200;
+constexpr std::int64_t kFieldsToLearn = 100;
 /// From here on there is no other light worth the name.
 constexpr std::int32_t kAllTheLamps_q10 = 922;  // 90 %
 /// While nothing was proved: what other light may leave to the lamp.
@@ -33,10 +36,13 @@ constexpr std::int32_t kLeastGain_q10 = 123;  // 12 %
 constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;   // the lag is chosen among several
 constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;    // proved: a picture that knows nothing, g = 0
 constexpr std::int32_t kFromSound_q4 = 21 * 16 / 4;  // failed: a sound lamp, g as learnt
+constexpr std::int32_t kUnlikely_q4 = 2 * 16;        // longer times prove nothing: the same
+constexpr std::int32_t kDoubt_q4 = 3 * 16;           // not proved any more: the same
 constexpr std::int32_t kAboveLimit_q4 = 16;
 constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
 constexpr std::int32_t kFirstBelowLimit_q4 = 6 * 16;
-constexpr std::int32_t kMostUndecided = 40;  // blocks: 10 s
+/// What noise leaves over at most, to the scatter, until that is learnt.
+constexpr std::int32_t kUnlearntRatio_q10 = 6 * 1024;
 
 }  // namespace
 
@@ -44,18 +50,20 @@ void PatternWatch::begin() {
   led_ = false;
   chain_ = {};
   chains_ = 0;
-  next_moment_ = 0;
+  next_moment_ = kMoments;  // so that counting back from there never passes 0
   moments_.fill({});
   now_ = {};
   block_until_ = FieldTime(0);
   blocks_.fill({});
-  next_block_ = 0;
+  next_block_ = kBlocks;
   blocks_permille_ = 0;
   learnt_lag_ = -1;
   noise_ratio_q10_ = 0;
   liveness_ = Liveness::kUnknown;
   undecided_ = 0;
+  doubted_ = 0;
   score_q4_ = 0;
+  usual_scatter_q32_ = kMostScatter_q32;
 }
 
 void PatternWatch::follow(const Field& field, std::optional<LightChange> change) {
@@ -73,7 +81,8 @@ void PatternWatch::follow(const Field& field, std::optional<LightChange> change)
   }
   led_ = true;
   const std::size_t lines = field.parity == Parity::kOdd ? 0 : 1;
-  const bool goes_on = change && chain_[lines] != 0 && std::abs(light_q16_[lines]) < kMostLight / 2;
+  const bool goes_on = change && chain_[lines] != 0 && !is_cut(*change) &&
+                       std::abs(light_q16_[lines]) < kMostLight / 2;
   if (!goes_on) {
     chains_ = chains_ < kMostChains ? chains_ + 1 : 1;
     chain_[lines] = chains_;
@@ -93,6 +102,15 @@ void PatternWatch::follow(const Field& field, std::optional<LightChange> change)
     block_until_ = field.mid_exposure + kBlock;
     close_block();
   }
+}
+
+// Tube-ends whose light differs by much more than it did, each from the others: what is seen is
+// another picture now, and its difference to the one before tells nothing of a lamp.
+bool PatternWatch::is_cut(const LightChange& change) {
+  const std::int64_t scatter = std::min(change.scatter_q32, kMostScatter_q32);
+  const bool cut = scatter > kLeastCut_q32 && scatter / kCut > usual_scatter_q32_;
+  usual_scatter_q32_ += (scatter - usual_scatter_q32_) / 32;
+  return cut;
 }
 
 /// The last moment of the same chain that is `span` older, looked for from `place` on backwards.
@@ -155,16 +173,21 @@ PatternSums PatternWatch::sum_of(std::int32_t blocks) const {
   return sums;
 }
 
-// Where other light is learnt, fields of another level have another gain, and are forgotten.
+// Where other light is learnt, fields of another level have another gain, and are forgotten; but
+// for the last ones, in which the level cannot have changed that much. A level that is led through
+// a picture that does not follow would never be found out else.
 void PatternWatch::keep_to_level() {
   const std::int32_t off = std::abs(level_permille_ - blocks_permille_);
   if (off * 8 <= blocks_permille_) {
     return;
   }
+  const bool led_there = off * 4 <= blocks_permille_;  // not by a jump
   blocks_permille_ = level_permille_;
   if (learnt_lag_ >= 0 && learnt_gain_q10_ < kAllTheLamps_q10) {
-    blocks_.fill({});
-    now_ = {};
+    now_ = led_there ? now_ : PatternSums{};
+    for (std::uint32_t back = led_there ? kShortBlocks : 1; back <= kBlocks; ++back) {
+      blocks_[(next_block_ - back) % kBlocks] = {};
+    }
   }
 }
 
@@ -174,16 +197,26 @@ void PatternWatch::close_block() {
   ++next_block_;
   now_ = {};
   score_q4_ = 0;
-  // The shortest time that is enough to be certain.
+  // The shortest time that is enough to be certain. What a longer one proves is no longer so where
+  // a shorter one speaks against it.
   Liveness told = Liveness::kUnknown;
+  bool doubted = false;
+  bool unlikely = false;
   for (const std::int32_t blocks : {kShortBlocks, kMiddleBlocks, kBlocks}) {
-    told = judge(sum_of(blocks), blocks);
+    const PatternSums sums = sum_of(blocks);
+    told = judge(sums, blocks);
+    if (told == Liveness::kProved && unlikely) {
+      told = Liveness::kUnknown;
+    }
     if (told != Liveness::kUnknown) {
       break;
     }
+    const std::int32_t against_q4 = against_sound_q4(sums, blocks);
+    unlikely = unlikely || against_q4 >= kUnlikely_q4;
+    doubted = doubted || against_q4 >= kDoubt_q4;
   }
-  hold(told);
-  if (liveness_ == Liveness::kProved && undecided_ == 0) {
+  hold(told, doubted);
+  if (liveness_ == Liveness::kProved && undecided_ == 0 && !in_question()) {
     learn(sum_of(kBlocks));
   }
 }
@@ -202,6 +235,25 @@ std::int32_t PatternWatch::expected_q10() const {
 
 // What a sound lamp's gain is was learnt over kBlocks, and no better known than those say: beside
 // the deviation of the fields that are judged stands that of the ones that were learnt from.
+std::int32_t PatternWatch::from_sound_q4(const PatternGain& gain, std::int32_t blocks) const {
+  const std::int64_t deviation_q20 =
+      gain.from_sound_q10 * integer_root((std::int64_t{kBlocks + blocks} << 20) / kBlocks);
+  return static_cast<std::int32_t>(
+      std::int64_t{gain.q10 - expected_q10()} * (16 * 1024) / deviation_q20 + gain.sound_tail_q4);
+}
+
+// Of a sound lamp these fields would have shown more, though it is not certain yet that there is
+// none. That a picture was proved by older fields is worth nothing then.
+std::int32_t PatternWatch::against_sound_q4(const PatternSums& sums, std::int32_t blocks) const {
+  if (learnt_lag_ < 0) {
+    return 0;
+  }
+  const PatternGain gain =
+      core::lighting::gain_of(sums, static_cast<std::size_t>(learnt_lag_),
+                              noise_ratio_q10_ > 0 ? noise_ratio_q10_ : kUnlearntRatio_q10);
+  return gain.known && gain.q10 < expected_q10() * 5 / 8 ? -from_sound_q4(gain, blocks) : 0;
+}
+
 Liveness PatternWatch::judge(const PatternSums& sums, std::int32_t blocks) {
   const PatternGain gain =
       learnt_lag_ < 0 ? PatternGain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
@@ -209,10 +261,7 @@ Liveness PatternWatch::judge(const PatternSums& sums, std::int32_t blocks) {
     return judge_unlearnt(sums);
   }
   const std::int32_t expected = expected_q10();
-  const std::int64_t deviation_q20 =
-      gain.from_sound_q10 * integer_root((std::int64_t{kBlocks + blocks} << 20) / kBlocks);
-  const auto from_sound = static_cast<std::int32_t>(
-      std::int64_t{gain.q10 - expected} * (16 * 1024) / deviation_q20 + gain.sound_tail_q4);
+  const std::int32_t from_sound = from_sound_q4(gain, blocks);
   score_q4_ = noise_ratio_q10_ > 0 ? std::min(score_q4_, from_sound) : 0;
   if (gain.above_q4(0) >= kFromNone_q4 + gain.tail_q4 &&
       gain.above_q4(std::max(expected / 2, kLeastGain_q10)) >= kAboveLimit_q4) {
@@ -288,8 +337,10 @@ void PatternWatch::learn(const PatternSums& sums) {
 void PatternWatch::learn_noise(const PatternGain& gain, const PatternSums& sums) {
   const std::size_t span = span_of(static_cast<std::size_t>(learnt_lag_));
   const std::int64_t scatter = std::max<std::int64_t>(sums.spans[span].scatter >> 8, 1);
+  const std::int64_t noise = std::max<std::int64_t>(
+      gain.rest - of_lag(sums.vv[static_cast<std::size_t>(learnt_lag_)] >> 8), 0);
   const auto seen = static_cast<std::int32_t>(
-      std::clamp<std::int64_t>((gain.rest << 10) / scatter, 1, kMostRatio_q10));
+      std::clamp<std::int64_t>((noise << 10) / scatter, 1, kMostRatio_q10));
   noise_ratio_q10_ =
       noise_ratio_q10_ == 0
           ? seen
@@ -297,17 +348,28 @@ void PatternWatch::learn_noise(const PatternGain& gain, const PatternSums& sums)
                        std::min(noise_ratio_q10_ + noise_ratio_q10_ / 64 + 1, kMostRatio_q10));
 }
 
-void PatternWatch::hold(Liveness told) {
+// The last fields show so little of the lamp that they may be another picture's already.
+bool PatternWatch::in_question() const {
+  if (learnt_lag_ < 0) {
+    return false;
+  }
+  const PatternGain gain = gain_of(sum_of(kShortBlocks), static_cast<std::size_t>(learnt_lag_));
+  return gain.known && gain.q10 < expected_q10() * 5 / 8;
+}
+
+void PatternWatch::hold(Liveness told, bool doubted) {
   if (told != Liveness::kUnknown) {
     if (told == Liveness::kFailed && liveness_ != told) {
       blocks_.fill({});  // what was seen of a sound lamp proves nothing any more
     }
     liveness_ = told;
     undecided_ = 0;
+    doubted_ = 0;
     return;
   }
+  doubted_ = doubted || doubted_ > 0 ? std::min(doubted_ + 1, kMostUndecided) : 0;
   undecided_ = std::min(undecided_ + 1, kMostUndecided);
-  if (liveness_ == Liveness::kProved && undecided_ == kMostUndecided) {
+  if (liveness_ == Liveness::kProved && (doubted || undecided_ == kMostUndecided)) {
     liveness_ = Liveness::kUnknown;
   }
 }

@@ -36,8 +36,19 @@ class PatternWatch {
   /// the level in force. Instants grow.
   void follow(const Field& field, std::optional<LightChange> change);
 
-  /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
+  /// kProved and kFailed are held until something else is certain; kProved for 5 s at most, and
+  /// only until the last seconds speak against it.
   [[nodiscard]] Liveness liveness() const { return liveness_; }
+
+  /// Whether a sound lamp that was seen before would have been proved again by now: for a second
+  /// something has spoken against it, and nothing for it.
+  [[nodiscard]] bool doubts() const {
+    return liveness_ == Liveness::kUnknown && doubted_ >= kDoubtsFrom;
+  }
+
+  /// Whether the level should stay, so that it shows soon what is the matter: something speaks
+  /// against a sound lamp, since 5 s at most.
+  [[nodiscard]] bool wants_level() const { return doubted_ > 0 && doubted_ < kMostUndecided; }
 
   /// How much of a change of the level is seen in the picture at this level, 1/1024: the lamp's
   /// share in the light. Empty: it was never proved.
@@ -45,10 +56,10 @@ class PatternWatch {
     return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
   }
 
-  /// Whether a small swing is not known to be enough: the picture is not proved now, or the lamp
-  /// was seen to follow with so long a lag that little of a swing is left.
+  /// Whether a small swing is not known to be enough: the picture is not proved now or the lamp not
+  /// learnt well yet, or it was seen to follow with so long a lag that little of a swing is left.
   [[nodiscard]] bool needs_wide_swing() const {
-    return liveness_ != Liveness::kProved || learnt_lag_ < 0 ||
+    return liveness_ != Liveness::kProved || noise_ratio_q10_ == 0 ||
            span_of(static_cast<std::size_t>(learnt_lag_)) > 0;
   }
 
@@ -92,7 +103,10 @@ class PatternWatch {
   static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
   static constexpr std::int32_t kMiddleBlocks = 14;
   static constexpr std::int32_t kBlocks = 36;
+  static constexpr std::int32_t kDoubtsFrom = 4;
+  static constexpr std::int32_t kMostUndecided = 20;  ///< blocks: 5 s
 
+  bool is_cut(const LightChange& change);
   void sample(const Moment& now, std::size_t span, std::int64_t scatter_q32);
   [[nodiscard]] const Moment* before(const Moment& moment, FieldTime span,
                                      std::uint32_t& place) const;
@@ -103,12 +117,15 @@ class PatternWatch {
     return core::lighting::gain_of(sums, lag, noise_ratio_q10_);
   }
   [[nodiscard]] std::int32_t expected_q10() const;
+  [[nodiscard]] std::int32_t from_sound_q4(const PatternGain& gain, std::int32_t blocks) const;
+  [[nodiscard]] std::int32_t against_sound_q4(const PatternSums& sums, std::int32_t blocks) const;
   [[nodiscard]] Liveness judge(const PatternSums& sums, std::int32_t blocks);
   [[nodiscard]] Liveness judge_unlearnt(const PatternSums& sums);
   void learn(const PatternSums& sums);
   [[nodiscard]] std::int32_t likeliest_lag(const PatternSums& sums) const;
   void learn_noise(const PatternGain& gain, const PatternSums& sums);
-  void hold(Liveness told);
+  [[nodiscard]] bool in_question() const;
+  void hold(Liveness told, bool doubted);
 
   std::array<std::int32_t, kLags> level_q16_{};  ///< led through each lag
   bool led_ = false;
@@ -118,11 +135,11 @@ class PatternWatch {
   std::int32_t chains_ = 0;
 
   std::array<Moment, kMoments> moments_{};
-  std::uint32_t next_moment_ = 0;
+  std::uint32_t next_moment_ = kMoments;
   PatternSums now_{};  ///< of the block that is not full yet
   FieldTime block_until_{0};
   std::array<PatternSums, kBlocks> blocks_{};
-  std::uint32_t next_block_ = 0;
+  std::uint32_t next_block_ = kBlocks;
   std::int32_t blocks_permille_ = 0;  ///< the level that they are about of
 
   std::int32_t level_permille_ = 0;      ///< in force in the last field
@@ -133,13 +150,16 @@ class PatternWatch {
   std::int32_t noise_ratio_q10_ = 0;
   Liveness liveness_ = Liveness::kUnknown;
   std::int32_t undecided_ = 0;  ///< blocks since something was certain
+  std::int32_t doubted_ = 0;    ///< of those, blocks since something spoke against a sound lamp
   std::int32_t score_q4_ = 0;
+  std::int64_t usual_scatter_q32_ = 0;  ///< of the last fields
 };
 
 template <typename Self, typename Stream>
 void PatternWatch::transfer(Self& self, Stream& stream) {
   auto& [levels, led, last, lights, chain, chains, moments, next_moment, now, block_until, blocks,
-         next_block, blocks_level, level, lag, gain, gain_at, noise, told, undecided, score] = self;
+         next_block, blocks_level, level, lag, gain, gain_at, noise, told, undecided, doubted,
+         score, usual_scatter] = self;
   for (auto& one : levels) {
     stream.number(one, 0, kFullLamp_permille << 16);
   }
@@ -160,7 +180,9 @@ void PatternWatch::transfer(Self& self, Stream& stream) {
   stream.number(noise, 0, kMostRatio_q10);
   stream.choice(told, Liveness::kFailed);
   stream.number(undecided, 0, 1 << 20);
+  stream.number(doubted, 0, 1 << 20);
   stream(score);
+  stream.number(usual_scatter, 0, PatternSums::kMostSum);
 }
 
 }  // namespace tubesight::core::lighting

@@ -151,10 +151,12 @@ bool is_chosen(const Light& light, int chosen) {
 int study_again(const Light& light, const std::vector<OtherChange>& changes, double hours) {
   const LampModel lamp{light.lag_s, light.ring};
   const SoundHours sound = watch_sound(changes, lamp, hours, 1);
-  std::printf("again: %.0f h, first proof %.2f s, proved %.3f, alarms %ld, least %.1f\n", hours,
-              sound.first_proof_s,
-              static_cast<double>(sound.proved) / static_cast<double>(sound.fields),
-              static_cast<long>(sound.alarms), sound.least_score_q4 / 16.0);
+  std::printf(
+      "again: %.0f h, first proof %.2f s, proved %.3f, doubted %.6f, alarms %ld, least %.1f\n",
+      hours, sound.first_proof_s,
+      static_cast<double>(sound.proved) / static_cast<double>(sound.fields),
+      static_cast<double>(sound.doubted) / static_cast<double>(sound.fields),
+      static_cast<long>(sound.alarms), sound.least_score_q4 / 16.0);
   for (const bool frozen : {false, true}) {
     if (light.moves) {
       break;  // what is put in the place of the picture rests

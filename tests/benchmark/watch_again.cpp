@@ -134,6 +134,7 @@ SoundHours watch_sound(const std::vector<OtherChange>& changes, const LampModel&
       const Liveness liveness = watched.watch().liveness();
       ++all.fields;
       all.proved += liveness == Liveness::kProved ? 1 : 0;
+      all.doubted += watched.watch().doubts() ? 1 : 0;
       all.alarms += liveness == Liveness::kFailed && !failed ? 1 : 0;
       failed = liveness == Liveness::kFailed;
       if (liveness == Liveness::kProved) {

@@ -43,6 +43,7 @@ class ChangeRecorder {
 struct SoundHours {
   std::int64_t fields = 0;
   std::int64_t proved = 0;
+  std::int64_t doubted = 0;    ///< fields in which nothing would have been vouched for
   std::int64_t alarms = 0;     ///< times that the picture was said not to follow
   double first_proof_s = 0.0;  ///< the slowest
   std::int32_t least_score_q4 = 0;

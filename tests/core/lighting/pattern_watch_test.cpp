@@ -1,5 +1,6 @@
 #include "core/lighting/pattern_watch.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -108,6 +109,12 @@ TEST_F(WatchedLamp, IsProvedWithinTwoSecondsAtRest) {
   }
 }
 
+// Ten fields make the first difference, and there have to be twenty-four of these.
+TEST_F(WatchedLamp, CountsNoFieldTwice) {
+  watch_.begin();
+  EXPECT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = 0.0, .noise = 1e-4}), 0.56);
+}
+
 // Until it is seen to follow, and for longer where it does so with a long lag.
 TEST_F(WatchedLamp, SwingsAsWideAsItNeeds) {
   EXPECT_TRUE(watch_.needs_wide_swing());
@@ -147,6 +154,59 @@ TEST_F(WatchedLamp, IsRefutedByAFrozenPictureUnderNoise) {
     const double proved_s = run_until(Liveness::kProved, 5.0, {.lag_s = lag_s});
     EXPECT_GE(proved_s, 0.0) << lag_s;
     EXPECT_LE(proved_s, 2.0) << lag_s;
+  }
+}
+
+// Another lamp's picture that comes soon after the first proof, when little is learnt of ours yet.
+TEST_F(WatchedLamp, IsNotTakenForProvedByAnothersPatternSoonAfterTheFirstProof) {
+  for (const double lag_s : {0.0, 0.05, 0.1, 0.18}) {
+    int late = 0;
+    constexpr int kTimes = 20;
+    for (int i = 0; i < kTimes; ++i) {
+      watch_.begin();
+      ASSERT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = lag_s}), 0.0);
+      ASSERT_LT(run_until(Liveness::kFailed, 1.5, {.lag_s = lag_s}), 0.0);
+      ASSERT_EQ(watch_.liveness(), Liveness::kProved);
+      const World another{.lag_s = lag_s, .anothers = true};
+      double lapsed_s = 0.0;
+      while (watch_.liveness() == Liveness::kProved && lapsed_s < 10.0) {
+        step(another);
+        lapsed_s += 1.0 / 60.0;
+      }
+      late += lapsed_s > 2.0 ? 1 : 0;
+      EXPECT_LE(lapsed_s, 5.0) << lag_s;
+    }
+    EXPECT_LE(late, kTimes / 10) << lag_s;
+  }
+}
+
+// A level that is led away from a picture that does not follow (an automatic lamp would).
+TEST_F(WatchedLamp, IsDoubtedByAnothersPatternWhileTheLevelIsLedAway) {
+  for (const double lag_s : {0.05, 0.18}) {
+    watch_.begin();
+    World world{.lag_s = lag_s, .share = 0.5};
+    ASSERT_GE(run_until(Liveness::kProved, 5.0, world), 0.0);
+    ASSERT_LT(run_until(Liveness::kFailed, 6.0, world), 0.0);
+    world.anothers = true;
+    double doubted_s = 0.0;
+    while (watch_.liveness() != Liveness::kFailed && !watch_.doubts() && doubted_s < 10.0) {
+      world.level = watch_.wants_level() ? world.level : std::max(world.level * 0.996, 120.0);
+      step(world);
+      doubted_s += 1.0 / 60.0;
+    }
+    EXPECT_LE(doubted_s, 5.0) << lag_s;
+  }
+}
+
+TEST_F(WatchedLamp, DoubtsNoSoundLampForLong) {
+  for (const double lag_s : {0.0, 0.05, 0.1, 0.2}) {
+    watch_.begin();
+    int doubted = 0;
+    for (int i = 0; i < 60 * 600; ++i) {
+      step({.lag_s = lag_s, .share = 0.7, .noise = 3e-3});
+      doubted += watch_.doubts() ? 1 : 0;
+    }
+    EXPECT_LE(doubted, 36) << lag_s;
   }
 }
 
