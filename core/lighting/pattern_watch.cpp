@@ -33,11 +33,11 @@ constexpr std::int32_t kAllTheLamps_q10 = 922;  // 90 %
 constexpr std::int32_t kLeastGain_q10 = 123;  // 12 %
 // Deviations that are certain, in 1/16. Each answer is as far from what the other would show as
 // false alarms are to be rare, and on its own side of the limit between them.
-constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;   // the lag is chosen among several
-constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;    // proved: a picture that knows nothing, g = 0
-constexpr std::int32_t kFromSound_q4 = 21 * 16 / 4;  // failed: a sound lamp, g as learnt
-constexpr std::int32_t kUnlikely_q4 = 2 * 16;        // longer times prove nothing: the same
-constexpr std::int32_t kDoubt_q4 = 3 * 16;           // not proved any more: the same
+constexpr std::int32_t kFirstFromNone_q4 = 5 * 16;  // the lag is chosen among several
+constexpr std::int32_t kFromNone_q4 = 9 * 16 / 2;   // proved: a picture that knows nothing, g = 0
+constexpr std::int32_t kFromSound_q4 = 6 * 16;      // failed: a sound lamp, g as learnt
+constexpr std::int32_t kUnlikely_q4 = 2 * 16;       // longer times prove nothing: the same
+constexpr std::int32_t kDoubt_q4 = 3 * 16;          // not proved any more: the same
 constexpr std::int32_t kAboveLimit_q4 = 16;
 constexpr std::int32_t kFirstAboveLimit_q4 = 2 * 16;
 constexpr std::int32_t kFirstBelowLimit_q4 = 6 * 16;
@@ -58,6 +58,7 @@ void PatternWatch::begin() {
   next_block_ = kBlocks;
   blocks_permille_ = 0;
   learnt_lag_ = -1;
+  learnt_fields_ = 0;
   noise_ratio_q10_ = 0;
   liveness_ = Liveness::kUnknown;
   undecided_ = 0;
@@ -204,14 +205,14 @@ void PatternWatch::close_block() {
   bool unlikely = false;
   for (const std::int32_t blocks : {kShortBlocks, kMiddleBlocks, kBlocks}) {
     const PatternSums sums = sum_of(blocks);
-    told = judge(sums, blocks);
+    told = judge(sums);
     if (told == Liveness::kProved && unlikely) {
       told = Liveness::kUnknown;
     }
     if (told != Liveness::kUnknown) {
       break;
     }
-    const std::int32_t against_q4 = against_sound_q4(sums, blocks);
+    const std::int32_t against_q4 = against_sound_q4(sums);
     unlikely = unlikely || against_q4 >= kUnlikely_q4;
     doubted = doubted || against_q4 >= kDoubt_q4;
   }
@@ -233,35 +234,36 @@ std::int32_t PatternWatch::expected_q10() const {
   return static_cast<std::int32_t>(lamp + other > 0 ? lamp * 1024 / (lamp + other) : 0);
 }
 
-// What a sound lamp's gain is was learnt over kBlocks, and no better known than those say: beside
-// the deviation of the fields that are judged stands that of the ones that were learnt from.
-std::int32_t PatternWatch::from_sound_q4(const PatternGain& gain, std::int32_t blocks) const {
+// What a sound lamp's gain is was learnt from some fields, and is no better known than those say:
+// beside the deviation of the fields that are judged stands that of the ones that were learnt from.
+std::int32_t PatternWatch::from_sound_q4(const PatternGain& gain) const {
+  const std::int64_t learnt = std::max(learnt_fields_, 1);
   const std::int64_t deviation_q20 =
-      gain.from_sound_q10 * integer_root((std::int64_t{kBlocks + blocks} << 20) / kBlocks);
+      gain.from_sound_q10 * integer_root(((learnt + gain.count) << 20) / learnt);
   return static_cast<std::int32_t>(
       std::int64_t{gain.q10 - expected_q10()} * (16 * 1024) / deviation_q20 + gain.sound_tail_q4);
 }
 
 // Of a sound lamp these fields would have shown more, though it is not certain yet that there is
 // none. That a picture was proved by older fields is worth nothing then.
-std::int32_t PatternWatch::against_sound_q4(const PatternSums& sums, std::int32_t blocks) const {
+std::int32_t PatternWatch::against_sound_q4(const PatternSums& sums) const {
   if (learnt_lag_ < 0) {
     return 0;
   }
   const PatternGain gain =
       core::lighting::gain_of(sums, static_cast<std::size_t>(learnt_lag_),
                               noise_ratio_q10_ > 0 ? noise_ratio_q10_ : kUnlearntRatio_q10);
-  return gain.known && gain.q10 < expected_q10() * 5 / 8 ? -from_sound_q4(gain, blocks) : 0;
+  return gain.known && gain.q10 < expected_q10() * 5 / 8 ? -from_sound_q4(gain) : 0;
 }
 
-Liveness PatternWatch::judge(const PatternSums& sums, std::int32_t blocks) {
+Liveness PatternWatch::judge(const PatternSums& sums) {
   const PatternGain gain =
       learnt_lag_ < 0 ? PatternGain{} : gain_of(sums, static_cast<std::size_t>(learnt_lag_));
   if (!gain.known) {
     return judge_unlearnt(sums);
   }
   const std::int32_t expected = expected_q10();
-  const std::int32_t from_sound = from_sound_q4(gain, blocks);
+  const std::int32_t from_sound = from_sound_q4(gain);
   score_q4_ = noise_ratio_q10_ > 0 ? std::min(score_q4_, from_sound) : 0;
   if (gain.above_q4(0) >= kFromNone_q4 + gain.tail_q4 &&
       gain.above_q4(std::max(expected / 2, kLeastGain_q10)) >= kAboveLimit_q4) {
@@ -325,6 +327,8 @@ void PatternWatch::learn(const PatternSums& sums) {
   const std::int32_t seen =
       std::min(std::clamp(gain.q10 - 2 * gain.from_none_q10, 1024, kMostGain_q10), gain.q10);
   learnt_gain_q10_ = goes_on ? (3 * expected_q10() + seen + 2) / 4 : seen;
+  const auto fields = static_cast<std::int32_t>(std::min<std::int64_t>(gain.count, kMostFields));
+  learnt_fields_ = goes_on ? std::max(learnt_fields_, fields) : fields;
   learnt_lag_ = best;
   learnt_at_permille_ = level_permille_;
   if (many) {

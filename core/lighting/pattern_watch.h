@@ -65,7 +65,7 @@ class PatternWatch {
 
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
   /// deviations, 1/16, less those that few fields are allowed beside; 0: it was not. For the study
-  /// of false alarms, one of which needs -84.
+  /// of false alarms, one of which needs -96.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
   [[nodiscard]] std::uint32_t looks() const { return next_block_; }
 
@@ -98,6 +98,7 @@ class PatternWatch {
     }
   };
 
+  static constexpr std::int32_t kMostFields = 1 << 20;
   static constexpr std::int32_t kMostRatio_q10 = 1 << 24;
   static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
   static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
@@ -117,9 +118,9 @@ class PatternWatch {
     return core::lighting::gain_of(sums, lag, noise_ratio_q10_);
   }
   [[nodiscard]] std::int32_t expected_q10() const;
-  [[nodiscard]] std::int32_t from_sound_q4(const PatternGain& gain, std::int32_t blocks) const;
-  [[nodiscard]] std::int32_t against_sound_q4(const PatternSums& sums, std::int32_t blocks) const;
-  [[nodiscard]] Liveness judge(const PatternSums& sums, std::int32_t blocks);
+  [[nodiscard]] std::int32_t from_sound_q4(const PatternGain& gain) const;
+  [[nodiscard]] std::int32_t against_sound_q4(const PatternSums& sums) const;
+  [[nodiscard]] Liveness judge(const PatternSums& sums);
   [[nodiscard]] Liveness judge_unlearnt(const PatternSums& sums);
   void learn(const PatternSums& sums);
   [[nodiscard]] std::int32_t likeliest_lag(const PatternSums& sums) const;
@@ -146,6 +147,7 @@ class PatternWatch {
   std::int32_t learnt_lag_ = -1;         ///< place in kLags_us; -1: nothing was proved yet
   std::int32_t learnt_gain_q10_ = 0;     ///< of the lamp's light in the picture
   std::int32_t learnt_at_permille_ = 0;  ///< with that level
+  std::int32_t learnt_fields_ = 0;       ///< from so many
   /// What is left over, to the scatter among tube-ends; 0: the gain is not learnt well yet.
   std::int32_t noise_ratio_q10_ = 0;
   Liveness liveness_ = Liveness::kUnknown;
@@ -158,8 +160,8 @@ class PatternWatch {
 template <typename Self, typename Stream>
 void PatternWatch::transfer(Self& self, Stream& stream) {
   auto& [levels, led, last, lights, chain, chains, moments, next_moment, now, block_until, blocks,
-         next_block, blocks_level, level, lag, gain, gain_at, noise, told, undecided, doubted,
-         score, usual_scatter] = self;
+         next_block, blocks_level, level, lag, gain, gain_at, fields, noise, told, undecided,
+         doubted, score, usual_scatter] = self;
   for (auto& one : levels) {
     stream.number(one, 0, kFullLamp_permille << 16);
   }
@@ -177,6 +179,7 @@ void PatternWatch::transfer(Self& self, Stream& stream) {
   stream.number(lag, -1, static_cast<std::int32_t>(kLags) - 1);
   stream.number(gain, 0, kMostGain_q10);
   stream.number(gain_at, 0, kFullLamp_permille);
+  stream.number(fields, 0, kMostFields);
   stream.number(noise, 0, kMostRatio_q10);
   stream.choice(told, Liveness::kFailed);
   stream.number(undecided, 0, 1 << 20);

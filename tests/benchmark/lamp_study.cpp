@@ -126,7 +126,7 @@ constexpr std::array<Light, 8> kLights = {{{0.0, 0.0, false, 100.0},
 /// the limit of that hundredth are taken to fall off as an exponential does (`power` 1, more than a
 /// Gaussian's do), or as those of a Gaussian (`power` 2, squares of the distance from the mean).
 double alarms_in_100_hours(std::vector<double> scores, double mean, double power) {
-  constexpr double kAlarm = 5.25;
+  constexpr double kAlarm = 6.0;
   constexpr double kLooks = 100.0 * 3600.0 * 4.0;
   const auto far = [&](double score) { return std::pow(std::max(mean - score, 0.0), power); };
   std::sort(scores.begin(), scores.end());
