@@ -149,7 +149,8 @@ void refuse_session(SettingsDocument& document) {
   }
 }
 
-/// Of a camera, as far as the settings say: 0 where only the camera knows.
+/// Of a camera, as far as the settings say: 0 where only the camera knows. One of which only the
+/// rate is known or the standard is analog and exposes a whole field.
 double exposure_ms(const SourceSettings& source) {
   if (source.kind == SourceKind::kAravis) {
     return source.aravis.exposure_ms;
@@ -157,8 +158,15 @@ double exposure_ms(const SourceSettings& source) {
   if (source.kind != SourceKind::kV4l2) {
     return 0.0;
   }
-  const bool whole_field = source.v4l2.exposure_ms <= 0.0 && source.v4l2.fields_per_s > 0.0;
-  return whole_field ? 1000.0 / source.v4l2.fields_per_s : source.v4l2.exposure_ms;
+  if (source.v4l2.exposure_ms > 0.0) {
+    return source.v4l2.exposure_ms;
+  }
+  if (source.v4l2.fields_per_s > 0.0) {
+    return 1000.0 / source.v4l2.fields_per_s;
+  }
+  return source.v4l2.standard == "PAL"    ? 20.0
+         : source.v4l2.standard == "NTSC" ? 1001.0 / 60.0
+                                          : 0.0;
 }
 
 void read_all(SettingsDocument& document, BoxSettings& box) {

@@ -36,6 +36,11 @@ struct TrackingStatus {
   bool scheduled = false;  ///< the thread has SCHED_FIFO
 };
 
+/// How a lamp is that somebody dims: of one that takes its levels only the picture shows that it
+/// shines.
+[[nodiscard]] drivers::Health lamp_health(bool device_fails,
+                                          core::lighting::LampCondition condition);
+
 /// The thread that tracks: takes each field from the source at its instant, steps, answers.
 ///
 /// Whatever happens to the source, a turn is made at its rate, without a field where there is none.

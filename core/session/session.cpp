@@ -91,6 +91,10 @@ void Session<S, Margin>::follow_lamp(const Input& input, Output& output) {
   if (lighting_.liveness() == Liveness::kFailed && knows_place(output.sighting.state)) {
     tracker_.give_up(Reason::kNotLive, input.field, output.sighting, output.tubes);
   }
+  if (lighting_.doubts()) {  // the track goes on, but which tube the tool is under is not said
+    output.sighting.tool_known = false;
+    output.sighting.aligned = false;
+  }
   output.sighting.liveness = lighting_.liveness();
   output.lamp = lighting_.condition();
 }

@@ -177,7 +177,8 @@ constexpr RegisterRow kTable[] = {
      "bit 0: camera_health, 1: lamp_health, 2: lamp_pattern, 3: lamp_now, 4: box counters, 5: "
      "pairs"},
     {Register::kCameraHealth, 1, 501, 1, "code", "camera_health", "1: well, 2: failed"},
-    {Register::kLampHealth, 1, 502, 1, "code", "lamp_health", "1: well, 2: failed"},
+    {Register::kLampHealth, 1, 502, 1, "code", "lamp_health",
+     "1: well, as the picture shows, 2: failed"},
     {Register::kLampPattern, 1, 503, 1, "code", "lamp_pattern",
      "1: the picture follows the lamp, 2: it does not"},
     {Register::kLampNow, 1, 504, 1, "permille", "lamp_now", "level in force"},

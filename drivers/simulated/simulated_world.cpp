@@ -314,8 +314,10 @@ void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {
   exposure.parity = out.field.parity;
   exposure.noise_seed = derived_seed(scenario_->seed, static_cast<std::uint64_t>(out.slot));
   exposure.window = window_;
-  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, following_share(),
-                        scenario_->seed, exposure);
+  // A slow lamp swings more, as a box's own does (core/lighting).
+  const AnotherLamp another{following_share(), scenario_->light.lag_s > 0.1 ? 0.02 : 0.01};
+  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, another, scenario_->seed,
+                        exposure);
   draw(exposure, out.faults);
 }
 
