@@ -24,6 +24,7 @@
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
 #include "board/bench/output/line_plot.h"
+#include "core/kinematics/tool_path.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::benchmark {
@@ -170,7 +171,9 @@ void make(const Case& what, std::int64_t number, Mounting mounting, Scenario& sc
     scenario.video.exposure_s = what.exposure_s;
     scenario.told.motion = what.told;
     lay_path(what, random, scenario);
-    if (truth->configure(scenario.scene) && draw_clicks(random, *truth, scenario)) {
+    if (truth->configure(scenario.scene) &&
+        board::campaign::draw_clicks(random, *truth, core::kinematics::transform_of(scenario.from),
+                                     scenario, scenario.told.start.tubes)) {
       return;
     }
   }
