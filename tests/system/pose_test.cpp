@@ -208,9 +208,9 @@ INSTANTIATE_TEST_SUITE_P(
     EachKind, PoseRefusals,
     ::testing::Values(
         Refusal{"TooFewTubes",
-                {"STILL", "--start", "7,41,304,240;7,42,373,192"},
-                1,
-                "no pose: 2 tube-ends are named, expected at least 3"},
+                {"STILL", "--only-start", "--start", "7,41,304,240;7,42,373,192"},
+                2,
+                "--only-start: 2 tube-ends are named, expected three at least"},
         Refusal{"Collinear",
                 {"STILL", "--only-start", "--start", "7,41,309,234;7,42,390,197;7,40,260,286"},
                 1,
