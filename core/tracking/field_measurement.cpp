@@ -86,6 +86,24 @@ std::optional<SiteInView<S>> in_view(const TrackingModel<S>& model, const SheetP
   return SiteInView<S>{*rim, box};
 }
 
+// The mean of the sheet a fifth of the radius outside a rim.
+template <Scalar S>
+std::int32_t grey_around(const FieldView& field, const RimOutline<S>& rim) {
+  std::int32_t sum = 0;
+  for (const Vector2<Px<S>>& point : rim.points) {
+    const auto outwards = [](Px<S> at, Px<S> middle) {
+      return rounded(at) + (rounded(at) - rounded(middle)) / 5;
+    };
+    const std::int32_t u = outwards(point.x, rim.middle.x);
+    const std::int32_t line =
+        (outwards(point.y, rim.middle.y) - field.first_line) / field.line_step;
+    sum += field.pixels[static_cast<std::ptrdiff_t>(std::clamp(line, 0, field.lines - 1)) *
+                            field.stride_px +
+                        std::clamp(u, 0, field.width_px - 1)];
+  }
+  return sum / kRimPoints;
+}
+
 // Whether a tube-end that was not measured is one grey value alone, a quarter of its radius beyond
 // the rim, too.
 bool is_blank(const FieldView& field, const RimBox& box) {
@@ -170,7 +188,10 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     }
     if (finding == Finding::kDisagrees) {
       ++count.disagreeing;
-      static_cast<void>(record.sites.dark.try_push_back(candidate.address));
+      if (record.sites.dark.try_push_back(candidate.address) &&
+          grey_around<S>(field, rim) <= light.region_threshold) {
+        record.sites.flat |= std::uint32_t{1} << (record.sites.dark.size() - 1);
+      }
     }
     MeasurementBounds around = bounds;
     around.range_px = look.range_px;
@@ -179,27 +200,7 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
   return count;
 }
 
-namespace {
-
-// The mean of the sheet a fifth of the radius outside a rim.
-template <Scalar S>
-std::int32_t grey_around(const FieldView& field, const RimOutline<S>& rim) {
-  std::int32_t sum = 0;
-  for (const Vector2<Px<S>>& point : rim.points) {
-    const auto outwards = [](Px<S> at, Px<S> middle) {
-      return rounded(at) + (rounded(at) - rounded(middle)) / 5;
-    };
-    const std::int32_t u = outwards(point.x, rim.middle.x);
-    const std::int32_t line =
-        (outwards(point.y, rim.middle.y) - field.first_line) / field.line_step;
-    sum += field.pixels[static_cast<std::ptrdiff_t>(std::clamp(line, 0, field.lines - 1)) *
-                            field.stride_px +
-                        std::clamp(u, 0, field.width_px - 1)];
-  }
-  return sum / kRimPoints;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 template <Scalar S>
 bool follow_darkness(const TrackingModel<S>& model, const FieldView& field,

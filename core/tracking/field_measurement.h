@@ -82,6 +82,7 @@ struct SiteSightings {
   List dark;    ///< as they should be, but without a rim
   /// Bit n: bright[n] is one grey value from inside to outside.
   std::uint32_t blank = 0;
+  std::uint32_t flat = 0;  ///< bit n: around dark[n] the sheet is as dark as inside it
 
   void clear() {
     open.clear();
@@ -89,6 +90,7 @@ struct SiteSightings {
     bright.clear();
     dark.clear();
     blank = 0;
+    flat = 0;
   }
 };
 

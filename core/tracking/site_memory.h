@@ -22,10 +22,10 @@ class SiteMemory {
 
   /// A field that is believed shows a tube-end there.
   void saw_tube_end(TubeAddress address);
-  /// It shows the site dark, and a rim off the plane: a plug may have one.
+  /// It shows the site darker than what is around it, and no rim of the plane: a plug may be so.
   void saw_dark(TubeAddress address) { static_cast<void>(is_known(short_of(address))); }
-  /// It shows it bright, or dark without a rim, as plate looks in the light of LEDs alone. `clear`:
-  /// nothing can stand before it. `tool`: whereabouts the tool is.
+  /// It shows it bright, or as dark as what is around it, which plate is in the light of LEDs
+  /// alone. `clear`: nothing can stand before it. `tool`: whereabouts the tool is.
   void saw_closed(TubeAddress address, bool clear, TubeAddress tool);
   /// All sites of the field are told.
   void end_field();

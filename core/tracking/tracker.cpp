@@ -196,12 +196,19 @@ void Tracker<S, Margin>::remember_sites() {
       sites_.saw_dark(tube.address);  // a rim off the plane: a plug may have one
     }
   }
-  if (!record.sites.bright.empty() || !record.sites.dark.empty()) {
-    const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
-    for (const auto* const closed : {&record.sites.bright, &record.sites.dark}) {
-      for (const TubeAddress address : *closed) {
-        sites_.saw_closed(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
-      }
+  const SiteSightings& sites = record.sites;
+  const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
+  const auto saw_closed = [&](TubeAddress address) {
+    sites_.saw_closed(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+  };
+  for (const TubeAddress address : sites.bright) {
+    saw_closed(address);
+  }
+  for (std::int32_t i = 0; i < sites.dark.size(); ++i) {
+    if (((sites.flat >> static_cast<unsigned>(i)) & 1U) != 0) {
+      saw_closed(sites.dark[i]);
+    } else {
+      sites_.saw_dark(sites.dark[i]);
     }
   }
   sites_.end_field();
