@@ -84,8 +84,8 @@ std::string page_of(const TemplateSheet& sheet) {
     box(sheet.field);
     out += "1 g\n";
   }
-  for (const auto& [x, y] : sheet.dots) {
-    const auto on = [&](double angle, double side, const char* what) {
+  for (const auto& [dot_x, dot_y] : sheet.dots) {
+    const auto on = [&, x = dot_x, y = dot_y](double angle, double side, const char* what) {
       const double c = std::cos(angle);
       const double s = std::sin(angle);
       point(x + sheet.radius_mm * (c - side * s), y_up(y) + sheet.radius_mm * (s + side * c), what);
