@@ -111,6 +111,26 @@ bool is_blank(const FieldView& field, const RimBox& box) {
       .blank;
 }
 
+// Counts and lists a tube-end that was not measured. `blank`: one grey value, its rim and beyond;
+// `flat`: as dark around as inside.
+void note_site(TubeAddress address, Finding finding, bool blank, bool flat, FindingCount& count,
+               SiteSightings& sites) {
+  count.blank += blank ? 1 : 0;
+  if (finding == Finding::kBright) {
+    ++count.bright;
+    count.bright_blank += blank ? 1 : 0;
+    if (sites.bright.try_push_back(address) && blank) {
+      sites.blank |= std::uint32_t{1} << (sites.bright.size() - 1);
+    }
+  }
+  if (finding == Finding::kDisagrees) {
+    ++count.disagreeing;
+    if (sites.dark.try_push_back(address) && flat) {
+      sites.flat |= std::uint32_t{1} << (sites.dark.size() - 1);
+    }
+  }
+}
+
 // What a tube-end that was not measured says about a plug.
 template <Scalar S>
 void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
@@ -177,30 +197,15 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       light.region_threshold = std::max(light.region_threshold, 16);
       continue;
     }
-    const bool blank = still && is_blank(field, box);
-    count.blank += blank ? 1 : 0;
-    if (finding == Finding::kBright) {
-      ++count.bright;
-      count.bright_blank += blank ? 1 : 0;
-      if (record.sites.bright.try_push_back(candidate.address) && blank) {
-        record.sites.blank |= std::uint32_t{1} << (record.sites.bright.size() - 1);
-      }
-    }
-    if (finding == Finding::kDisagrees) {
-      ++count.disagreeing;
-      if (record.sites.dark.try_push_back(candidate.address) &&
-          grey_around<S>(field, rim) <= light.region_threshold) {
-        record.sites.flat |= std::uint32_t{1} << (record.sites.dark.size() - 1);
-      }
-    }
+    const bool flat =
+        finding == Finding::kDisagrees && grey_around<S>(field, rim) <= light.region_threshold;
+    note_site(candidate.address, finding, still && is_blank(field, box), flat, count, record.sites);
     MeasurementBounds around = bounds;
     around.range_px = look.range_px;
     note_plug<S>(field, candidate.address, rim.center, box, around, finding, record);
   }
   return count;
 }
-
-namespace {}  // namespace
 
 template <Scalar S>
 bool follow_darkness(const TrackingModel<S>& model, const FieldView& field,

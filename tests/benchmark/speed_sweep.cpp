@@ -2,13 +2,10 @@
 // docs/performance.md. With --sheets only the first N tubesheets, for a look that takes seconds.
 //
 // Straight moves over drawn sheets with plugs and voids, from rest to rest, at growing speed and
-// acceleration, with cameras mounted both ways. Prints Markdown tables; the same numbers every time
-// on one machine. Exit status 1 when the box vouched for a wrong tube, named one, lost a move that
-// it has to follow, or neither followed a move nor said so (`SLIPPED`).
-//
-// In a cell behind the number of moves followed: why others were lost, `held` where a move was not
-// lost but fields under a tube were not vouched for (it coasts, to the end perhaps), `off` where a
-// field under the right tube was vouched for and truly 0.3 mm or more outside the gate.
+// acceleration, with cameras mounted both ways. Prints Markdown tables. Exit status 1 when the box
+// vouched for a wrong tube, named one, lost a move that it has to follow, or slipped.
+// In a cell behind the number of moves followed: why others were lost, `held` where fields under a
+// tube were not vouched for, `off` where one was and truly 0.3 mm or more outside the gate.
 
 #include <array>
 #include <cmath>
