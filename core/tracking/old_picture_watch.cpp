@@ -38,10 +38,8 @@ bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool
 
 void OldPictureWatch::age(bool old, bool standing) {
   if (old) {
-    relapses_ = std::min(relapses_ + (aged_ == Aged::kStood ? 1 : 0), kMostRelapses);
-    aged_ = Aged::kOld;
+    aged_ = aged_ == Aged::kStood ? Aged::kOldAgain : Aged::kOld;
   } else if (!standing) {
-    relapses_ = 0;
     aged_ = Aged::kFresh;
   } else if (aged_ == Aged::kOld) {
     aged_ = Aged::kStood;
