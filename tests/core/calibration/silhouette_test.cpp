@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/settings.h"
 #include "core/camera/camera_setup.h"
+#include "tests/support/source_camera.h"
 
 namespace tubesight::core::calibration {
 namespace {
@@ -20,18 +20,7 @@ constexpr std::int32_t kHeight = 480;
 constexpr GuidetubeShape kShape{18.2, 33.0};
 
 camera::CameraModel<double> the_camera() {
-  CameraSettings settings;
-  settings.width_px = kWidth;
-  settings.height_px = kHeight;
-  settings.focal_length_mm = 5.06;
-  settings.cell_width_mm = 0.0084;
-  settings.cell_height_mm = 0.0098;
-  settings.sensor_columns = 768;
-  settings.frame_columns = 635;
-  settings.horizontal_scale = 1.021;
-  settings.center_px = {324.3, 233.8};
-  settings.distortion_per_mm2 = 0.0092;
-  const auto made = camera::make_camera_model<double>(settings);
+  const auto made = camera::make_camera_model<double>(tests::source_camera());
   EXPECT_TRUE(made.has_value());
   return *made;
 }
