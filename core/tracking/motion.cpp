@@ -16,15 +16,18 @@ Unit<S> seconds(FieldTime span) {
 }
 
 template <Scalar S>
-Rest rest_of(const Motion<S>& motion) {
+Rest rest_of(const Motion<S>& motion, Parity parity) {
   using M = Mm<S>;
-  const auto within = [&motion](M approach, M turned) {
+  const bool whole = parity == Parity::kProgressive;
+  const M approach_mm_s = whole ? motion.approach_mm_s : motion.mean_approach_mm_s;
+  const auto within = [&](M approach, M turned) {
     const auto& turn = motion.turn_rad_s;
-    return absolute(motion.approach_mm_s) < approach && absolute(turn.x) < turned &&
+    return absolute(approach_mm_s) < approach && absolute(turn.x) < turned &&
            absolute(turn.y) < turned && absolute(turn.z) < turned;
   };
   const M fastest = M(kRest_mm_s);
-  if (!motion.known || plane_length(motion.velocity_mm_s) >= fastest) {
+  if (!motion.known ||
+      plane_length(whole ? motion.velocity_mm_s : motion.mean_velocity_mm_s) >= fastest) {
     return Rest::kNone;
   }
   if (within(fastest, constant<M>(0.035))) {
@@ -141,6 +144,12 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   const auto moved = tool_after.local - tool_before.local;
   motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
   motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
+  const auto mean = [&last](M now, M earlier) {
+    return last.known ? times(now + earlier, constant<M>(0.5)) : now;
+  };
+  motion.mean_velocity_mm_s = {mean(motion.velocity_mm_s.x, last.velocity_mm_s.x),
+                               mean(motion.velocity_mm_s.y, last.velocity_mm_s.y)};
+  motion.mean_approach_mm_s = mean(motion.approach_mm_s, last.approach_mm_s);
   const auto turn = turn_between<S>(before, after);
   const M half = constant<M>(0.5);
   const auto smoothed = [&](M turned, M rate_before) {
@@ -154,7 +163,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
 
 #define TUBESIGHT_INSTANTIATE(S)                                                                   \
   template Unit<S> seconds<S>(FieldTime);                                                          \
-  template Rest rest_of<S>(const Motion<S>&);                                                      \
+  template Rest rest_of<S>(const Motion<S>&, Parity);                                              \
   template bool travels<S>(const Motion<S>&);                                                      \
   template SheetPose<S> predict<S>(const TrackingModel<S>&, const SheetPose<S>&,                   \
                                    const ToolPoint<S>&, const Motion<S>&, Unit<S>);                \

@@ -19,16 +19,18 @@ template <Scalar S>
 template <Scalar S>
 struct Motion {
   bool known = false;
-  Unit<S> interval_s{};            ///< between those fields
-  Vector2<Mm<S>> velocity_mm_s{};  ///< of the tool point over the sheet, sheet axes
-  Mm<S> approach_mm_s{};           ///< of the height
-  Vector3<Mm<S>> turn_rad_s{};     ///< of the sheet before the camera, camera axes
+  Unit<S> interval_s{};                 ///< between those fields
+  Vector2<Mm<S>> velocity_mm_s{};       ///< of the tool point over the sheet, sheet axes
+  Mm<S> approach_mm_s{};                ///< of the height
+  Vector2<Mm<S>> mean_velocity_mm_s{};  ///< over this interval and the one before
+  Mm<S> mean_approach_mm_s{};
+  Vector3<Mm<S>> turn_rad_s{};  ///< of the sheet before the camera, camera axes
 
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [is_known, interval, velocity, approach, turn] = self;
-    stream(is_known, interval, velocity, approach, turn);
+    auto& [is_known, interval, velocity, approach, mean_velocity, mean_approach, turn] = self;
+    stream(is_known, interval, velocity, approach, mean_velocity, mean_approach, turn);
   }
 };
 
@@ -47,8 +49,10 @@ enum class Rest : std::uint8_t {
   kStill,
 };
 
+/// The rates between a picture and the last of its parity decide: few tube-ends, which the lines of
+/// the two fields cut differently, lie some tenths of a millimetre apart in them for ever.
 template <Scalar S>
-[[nodiscard]] Rest rest_of(const Motion<S>& motion);
+[[nodiscard]] Rest rest_of(const Motion<S>& motion, Parity parity);
 
 /// Whether the tool moves so fast, over 30 mm/s, that between two fields of one parity every edge
 /// of the picture does by pixels.

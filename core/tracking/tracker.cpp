@@ -162,7 +162,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   gate_.close(seen.deviation_mm, seen.picture_deviation_mm);
   clock_.believe(field);
   doubt_.agree(seen.fit.used);
-  old_pictures_.believe(rest_of<S>(motion_));
+  old_pictures_.believe(rest_of<S>(motion_, field.parity));
   order_.believe(field, seen.tool.local);
   last_place_.believe(field, seen.pose.anchor, seen.tool.local, motion_);
   judge(seen);

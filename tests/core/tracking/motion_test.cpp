@@ -218,13 +218,14 @@ TYPED_TEST(MotionOf, CarriesTheVelocitysDeviationOnOverTheSpan) {
 TYPED_TEST(MotionOf, RestsUnderThreeMillimetresASecond) {
   using S = TypeParam;
   Motion<S> motion;
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNone) << "an unknown motion is none at rest";
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNone)
+      << "an unknown motion is none at rest";
   motion.known = true;
-  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kStill);
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.2)};  // 2.97 mm/s
-  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kStill);
   motion.velocity_mm_s = {Mm<S>(2.0), Mm<S>(-2.3)};  // 3.05 mm/s
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNone);
 }
 
 TYPED_TEST(MotionOf, RestsNearlyWhereAFewTubeEndsTellNoBetter) {
@@ -232,16 +233,38 @@ TYPED_TEST(MotionOf, RestsNearlyWhereAFewTubeEndsTellNoBetter) {
   Motion<S> motion;
   motion.known = true;
   motion.approach_mm_s = Mm<S>(-2.9);
-  EXPECT_EQ(rest_of<S>(motion), Rest::kStill);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kStill);
   motion.approach_mm_s = Mm<S>(-5.0);
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNearly) << "the picture grows, or wavers";
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNearly)
+      << "the picture grows, or wavers";
   motion.approach_mm_s = Mm<S>(-10.1);
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNone);
   motion.approach_mm_s = {};
   motion.turn_rad_s.z = Mm<S>(-0.04);
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNearly) << "it turns, or wavers";
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNearly) << "it turns, or wavers";
   motion.turn_rad_s.z = Mm<S>(-0.13);
-  EXPECT_EQ(rest_of<S>(motion), Rest::kNone);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNone);
+}
+
+TYPED_TEST(MotionOf, OfTheFieldsOfAFrameRestsFromOneToTheLastOfItsParity) {
+  using S = TypeParam;
+  // Seven tube-ends lie 0.12 mm apart in the two fields, for ever.
+  const SheetPose<S> pose{};
+  const auto at = [](double x) {
+    ToolPoint<S> tool{};
+    tool.local.x = Mm<S>(x);
+    return tool;
+  };
+  Motion<S> motion;
+  for (const double from : {0.0, 0.12, 0.0}) {
+    motion = motion_between<S>(pose, at(from), pose, at(0.12 - from), motion, Unit<S>(0.02));
+  }
+  EXPECT_EQ(rest_of<S>(motion, Parity::kEven), Rest::kStill);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kOdd), Rest::kStill);
+  EXPECT_EQ(rest_of<S>(motion, Parity::kProgressive), Rest::kNone) << "whole frames: it shakes";
+  motion = motion_between<S>(pose, at(0.12), pose, at(0.3), motion, Unit<S>(0.02));
+  motion = motion_between<S>(pose, at(0.3), pose, at(0.4), motion, Unit<S>(0.02));
+  EXPECT_EQ(rest_of<S>(motion, Parity::kEven), Rest::kNone);
 }
 
 TYPED_TEST(MotionOf, TravelsFromThirtyMillimetresASecondOn) {
