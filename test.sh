@@ -96,6 +96,7 @@ check_stage() {
 # of the tests keep time.
 build_ahead() {
   ahead=$1
+  : > "$work/$1.log"  # whoever follows it may come first
   set -m
   (
     if [ "$stage" != format ]; then

@@ -15,6 +15,7 @@ bench=(
   libpng-dev            # overlay pictures
   libtomlplusplus-dev   # settings
   libcli11-dev          # the command line
+  libyaml-dev           # cameras of OpenCV and ROS
   libmodbus-dev         # the robot's link
   libgpiod-dev          # a lamp on GPIO lines
   libaravis-dev         # cameras of GigE Vision and USB3 Vision

@@ -28,6 +28,8 @@ packages=(
   libaravis-dev        # drivers/aravis: its header alone, the library is loaded at run time
   libglib2.0-dev       # headers that that one includes
   libcli11-dev         # board/bench
+  libyaml-0-2          # drivers/camera_yaml
+  libyaml-dev          #
 )
 # Only what packages say of themselves: the cross compiler has the libraries.
 described=(libc6 libgcc-s1 libstdc++6)
@@ -52,34 +54,12 @@ fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work"/{state/lists/partial,cache/archives/partial,debs,described}
-touch "$work/status"
-cat > "$work/apt.conf" <<CONF
-APT::Architecture "$architecture";
-APT::Architectures { "$architecture"; };
-APT::Sandbox::User "root";
-Dir::State "$work/state";
-Dir::State::status "$work/status";
-Dir::Cache "$work/cache";
-Acquire::Languages "none";
-Acquire::Retries "3";
-CONF
-export APT_CONFIG=$work/apt.conf
-
-fail() {
-  echo "$0: $1; what apt said:" >&2
-  tail -n 5 "$work/log" >&2
-  exit 1
-}
-# One list that fails (the archive of security updates has at times none for armhf) is told, not the end:
-# what counts is whether the packages come.
-apt-get -q update > "$work/log" 2>&1 \
-  || echo "$0: not all of Debian's package lists for $architecture could be read" >&2
-download() { (cd "$1" && shift && apt-get -q download "$@") > "$work/log" 2>&1; }
-download "$work/debs" "${packages[@]}" \
-  || fail "cannot download ${packages[*]} for $architecture"
-download "$work/described" "${described[@]}" \
-  || fail "cannot download ${described[*]} for $architecture"
+"$(dirname "${BASH_SOURCE[0]}")/debian_download.sh" "$architecture" "$work/debs" \
+  "${packages[@]}" "${described[@]}"
+mkdir "$work/described"
+for package in "${described[@]}"; do
+  mv "$work/debs/${package}"_*.deb "$work/described"
+done
 
 rm -rf "$sysroot"
 mkdir -p "$sysroot/debian"

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "board/bench/calibrate/base_command.h"
+#include "board/bench/calibrate/camera_command.h"
+#include "board/bench/calibrate/template_command.h"
 #include "board/bench/calibrate/tool_command.h"
 #include "board/bench/output/exit_status.h"
 
@@ -17,10 +19,12 @@ struct CalibrateArguments {
   std::string what;
   std::string file;
   std::string out;
+  CalibrateCameraOptions camera;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;
   std::string of_base;  ///< the settings that zones correct
   std::string arm;      ///< the arm whose links are calibrated
+  CalibrateTemplateOptions dots;
 };
 
 /// Adds `calibrate` with all its options, which are read into `arguments`.

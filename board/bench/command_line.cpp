@@ -58,6 +58,11 @@ CLI::App* add_replay(CLI::App& app, ReplayOptions& options, std::string& scalar)
   replay->add_option("--poses", options.poses, "Write one row a pose request, as pose --csv does")
       ->option_text("P.csv");
   replay
+      ->add_option("--pairs", options.pairs,
+                   "Write one row a pose that was confirmed and with which the robot told its own, "
+                   "as calibrate base reads them")
+      ->option_text("PAIRS.csv");
+  replay
       ->add_option("--scalar", scalar,
                    "Arithmetic of the tracking: fixed (default), float or double")
       ->option_text("NAME")

@@ -28,7 +28,7 @@ _tubesight() {
   case $command in
     replay)
       options="-h --help --overlay-estimates"
-      taking="--fields --centers --overlay --poses --scalar"
+      taking="--fields --centers --overlay --poses --pairs --scalar"
       ;;
     pose)
       options="-h --help --only-start --average --total"
@@ -39,8 +39,10 @@ _tubesight() {
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known"
-      taking="--sheet --touches --base --arm --picture --out --dock --check --dock-height-mm --dock-offset-mm --heading-deg --start"
+      options="-h --help --level --tool-known --free-efl --opencv --type"
+      taking="--write-points --sheet --touches --base --arm --picture --export --out --dock --check"
+      taking+=" --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
+      taking+=" --rows --columns --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
     budget)
       options="-h --help"
@@ -63,6 +65,9 @@ _tubesight() {
   esac
 
   case $command$previous in
+    calibrate--lattice) _tubesight_words square staggered && return ;;
+    calibrate--dots) _tubesight_words dark bright && return ;;
+    calibrate--paper) _tubesight_words A4 A3 A2 letter tabloid && return ;;
     replay--scalar) _tubesight_words fixed float double && return ;;
     pose--method)
       _tubesight_words rims centers tangent-points tangent-lines ellipse-centers && return
@@ -70,13 +75,14 @@ _tubesight() {
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
-    replay--fields | replay--centers | replay--poses | pose--csv | pose--covariance | look--csv | \
+    replay--fields | replay--centers | replay--poses | replay--pairs | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge | calibrate--touches)
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
+    calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
-    simulate--out) _tubesight_files "" && return ;;
+    simulate--out | calibrate--write-points) _tubesight_files "" && return ;;
   esac
   case " $taking " in
     *" $previous "*) return ;; # a number, a tube: nothing to offer
@@ -96,8 +102,15 @@ _tubesight() {
     esac
   done
   case $command$position in
-    calibrate0) _tubesight_words camera tool base zones links ;;
-    calibrate1) [[ ${COMP_WORDS[2]} =~ ^(base|zones|links)$ ]] && _tubesight_files .csv || _tubesight_files .toml ;;
+    calibrate0) _tubesight_words camera tool base zones links import template ;;
+    calibrate1)
+      case ${COMP_WORDS[2]} in
+        template) _tubesight_files .svg .pdf ;;
+        base | zones | links) _tubesight_files .csv ;;
+        import) _tubesight_files .yaml .yml ;;
+        *) _tubesight_files .toml ;;
+      esac
+      ;;
     replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;

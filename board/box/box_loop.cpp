@@ -261,6 +261,9 @@ void BoxLoop<S, Margin>::serve_poses() {
   if (services_.poses != nullptr) {
     services_.poses->take(input_.field, input_.field.number, output_.order);
   }
+  if (services_.pairs != nullptr) {
+    services_.pairs->take(input_.events, output_.replies);
+  }
 }
 
 template <core::Scalar S, typename Margin>

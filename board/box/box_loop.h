@@ -8,6 +8,7 @@
 #include "board/box/event_recorder.h"
 #include "board/box/frame_view.h"
 #include "board/box/overlay_snapshot.h"
+#include "board/box/pair_desk.h"
 #include "board/box/pose_desk.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
@@ -44,6 +45,7 @@ struct BoxServices {
   bool estimates = false;             ///< with the places where tubes are expected in it
   EventRecorder* recorder = nullptr;  ///< keeps the last fields for a replay
   core::lighting::LampPolicy lamp{};  ///< what the session may do with the dimmer's lamp
+  PairDesk* pairs = nullptr;          ///< keeps poses by the robot and by the box side by side
 };
 
 /// What went wrong on one line so far.

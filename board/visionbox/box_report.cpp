@@ -144,6 +144,25 @@ void add_link(JsonLine& line, const BoxReport& report) {
   line.close();
 }
 
+/// Empty: none are written.
+std::string pairs_text(const PairsReport& pairs) {
+  if (pairs.file.empty()) {
+    return {};
+  }
+  std::string text = pairs.file + ", " + std::to_string(pairs.written) + " written";
+  text += pairs.lost > 0 ? ", " + std::to_string(pairs.lost) + " lost" : "";
+  return text + (pairs.trouble.empty() ? "" : ": " + pairs.trouble);
+}
+
+void add_pairs(JsonLine& line, const PairsReport& pairs) {
+  line.open("pairs").add("there", !pairs.file.empty());
+  if (!pairs.file.empty()) {
+    line.add("file", pairs.file).add("written", pairs.written).add("lost", pairs.lost);
+    line.add("trouble", pairs.trouble);
+  }
+  line.close();
+}
+
 bool there_is_recorder(const BoxReport& report) { return !report.recorder.folder.empty(); }
 
 void add_recorder(JsonLine& line, const BoxReport& report) {
@@ -235,6 +254,7 @@ std::string status_text(const BoxReport& report) {
   text += picture_text(tracking);
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
+  text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
   return text;
@@ -283,6 +303,9 @@ std::string status_answer(const BoxReport& report) {
   }
   add_link(line, report);
   add_recorder(line, report);
+  add_pairs(line, report.pairs);
+  line.open("zones").add("places", std::int64_t{report.zones});
+  line.add("known", report.zones_known).close();
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
@@ -326,6 +349,9 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
   rows.push_back({"link", there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
                   link_text(report)});
   rows.push_back(disk_row(report));
+  if (!report.pairs.file.empty()) {
+    rows.push_back({"pairs", good_if(report.pairs.trouble.empty()), pairs_text(report.pairs)});
+  }
   rows.push_back({"priority", report.priority == 0 ? Verdict::kAbsent : good_if(tracking.scheduled),
                   tracking.scheduled ? "SCHED_FIFO " + std::to_string(report.priority)
                                      : "like every other thread"});

@@ -10,6 +10,7 @@
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/lamp_keeper.h"
+#include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/recording_writer.h"
 #include "board/visionbox/tracking_thread.h"
 
@@ -34,6 +35,9 @@ struct BoxReport {
   std::string_view link_kind;
   LinkReport link;
   RecorderReport recorder;
+  PairsReport pairs;
+  std::int32_t zones = 0;     ///< places that corrections were seen at
+  bool zones_known = false;   ///< between those, too, by now
   std::int32_t priority = 0;  ///< wanted
   bool memory_locked = false;
   bool lock_wanted = false;

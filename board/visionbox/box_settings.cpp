@@ -26,8 +26,8 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 6> kBoxTables = {"source", "control", "realtime",
-                                                        "link",   "record",  "lamp"};
+constexpr std::array<std::string_view, 8> kBoxTables = {"source", "control", "realtime", "link",
+                                                        "record", "pairs",   "zones",    "lamp"};
 constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -149,7 +149,8 @@ void refuse_session(SettingsDocument& document) {
   }
 }
 
-/// Of a camera, as far as the settings say: 0 where only the camera knows.
+/// Of a camera, as far as the settings say: 0 where only the camera knows. One of which only the
+/// rate is known or the standard is analog and exposes a whole field.
 double exposure_ms(const SourceSettings& source) {
   if (source.kind == SourceKind::kAravis) {
     return source.aravis.exposure_ms;
@@ -157,8 +158,15 @@ double exposure_ms(const SourceSettings& source) {
   if (source.kind != SourceKind::kV4l2) {
     return 0.0;
   }
-  const bool whole_field = source.v4l2.exposure_ms <= 0.0 && source.v4l2.fields_per_s > 0.0;
-  return whole_field ? 1000.0 / source.v4l2.fields_per_s : source.v4l2.exposure_ms;
+  if (source.v4l2.exposure_ms > 0.0) {
+    return source.v4l2.exposure_ms;
+  }
+  if (source.v4l2.fields_per_s > 0.0) {
+    return 1000.0 / source.v4l2.fields_per_s;
+  }
+  return source.v4l2.standard == "PAL"    ? 20.0
+         : source.v4l2.standard == "NTSC" ? 1001.0 / 60.0
+                                          : 0.0;
 }
 
 void read_all(SettingsDocument& document, BoxSettings& box) {
@@ -167,6 +175,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.real_time = {};
   box.link = {};
   box.record = {};
+  box.pairs = {};
+  box.zones = {};
   box.lamp = {};
   SourceLight light = SourceLight::kUnknown;
   drivers::read_table(document, "source", true, [&](TableReader& table) {
@@ -182,6 +192,11 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_link(table, box.link); });
   drivers::read_table(document, "record", false,
                       [&](TableReader& table) { read_record(document, table, box.record); });
+  drivers::read_table(document, "pairs", false,
+                      [&](TableReader& table) { read_pairs(document, table, box.pairs); });
+  drivers::read_table(document, "zones", false, [&](TableReader& table) {
+    read_zones(document, table, box.link.kind != LinkKind::kNone, box.zones);
+  });
   std::size_t told = 0;
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
     read_lamp(table, {light, box.link.kind != LinkKind::kNone, exposure_ms(box.source)}, box.lamp);

@@ -6,8 +6,10 @@
 
 #include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
+#include "board/visionbox/pairs_settings.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
+#include "board/visionbox/zones_settings.h"
 #include "core/base/result.h"
 #include "drivers/aravis/aravis_settings.h"
 #include "drivers/files/messages.h"
@@ -49,6 +51,8 @@ struct BoxSettings {
   RealTimeSettings real_time;
   LinkSettings link;
   RecordSettings record;
+  PairsSettings pairs;
+  ZonesSettings zones;
   LampSettings lamp;
   bool lamp_sound = false;  ///< which lamp it is, is known: it can be made dark
   drivers::SessionFile session;

@@ -103,17 +103,28 @@ void TrackingThread::tell_robot() {
   health.lamp_dimmed = now_.lamp;
   health.lamp_automatic = now_.lamp_automatic;
   if (now_.lamp) {
-    const bool failed = now_.counters.dimmer_errors > dimmer_errors_ ||
-                        (told_.lamp != nullptr && !told_.lamp->report().open) ||
-                        core::lighting::is_fault(now_.lamp_condition);
-    health.lamp = failed ? Health::kFailed : Health::kWell;
+    const bool device_fails = now_.counters.dimmer_errors > dimmer_errors_ ||
+                              (told_.lamp != nullptr && !told_.lamp->report().open);
+    health.lamp = lamp_health(device_fails, now_.lamp_condition);
     health.lamp_permille = now_.lamp_permille;
   }
   dimmer_errors_ = now_.counters.dimmer_errors;
   health.fields = now_.counters.fields;
   health.fields_missing = now_.counters.missing;
   health.fields_late = now_.late;
+  if (told_.pairs != nullptr) {
+    health.pairs_written = told_.pairs->written();
+    health.pairs_lost = told_.pairs->lost();
+  }
   told_.link->set_health(health);
+}
+
+drivers::Health lamp_health(bool device_fails, core::lighting::LampCondition condition) {
+  if (device_fails || core::lighting::is_fault(condition)) {
+    return drivers::Health::kFailed;
+  }
+  return condition == core::lighting::LampCondition::kWell ? drivers::Health::kWell
+                                                           : drivers::Health::kUnknown;
 }
 
 }  // namespace tubesight::board

@@ -11,6 +11,7 @@
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/latency_histogram.h"
+#include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/wakeup.h"
 #include "core/base/scalar.h"
@@ -35,6 +36,11 @@ struct TrackingStatus {
   bool scheduled = false;  ///< the thread has SCHED_FIFO
 };
 
+/// How a lamp is that somebody dims: of one that takes its levels only the picture shows that it
+/// shines.
+[[nodiscard]] drivers::Health lamp_health(bool device_fails,
+                                          core::lighting::LampCondition condition);
+
 /// The thread that tracks: takes each field from the source at its instant, steps, answers.
 ///
 /// Whatever happens to the source, a turn is made at its rate, without a field where there is none.
@@ -47,6 +53,7 @@ class TrackingThread {
   struct Told {
     KeptLink* link = nullptr;
     const LampKeeper* lamp = nullptr;
+    const PairsWriter* pairs = nullptr;
   };
 
   /// All outlive the thread. The loop and the source are started by others. The robot reads over

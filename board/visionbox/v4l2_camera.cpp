@@ -19,6 +19,7 @@ CameraStatus status_of(const drivers::CameraReport& report) {
                      {"lost_fields", counters.lost_fields},
                      {"flagged", counters.flagged},
                      {"cut_short", counters.cut_short},
+                     {"unwritten", counters.unwritten},
                      {"without_signal", counters.without_signal},
                      {"other_standard", counters.other_standard},
                      {"noise", counters.noise},

@@ -25,15 +25,16 @@ std::unique_ptr<WatchedWorld> make_world(const BoxSettings& settings, hal::Opera
 
 /// Null: there is none.
 std::unique_ptr<KeptLink> make_link(const BoxSettings& settings, const hal::Clock& clock,
-                                    const VisionBox::Tell& tell) {
+                                    const ZoneDesk* zones, const VisionBox::Tell& tell) {
   if (settings.link.kind == LinkKind::kNone) {
     return nullptr;
   }
   // A claim is stamped when this thread sees it: late on a busy machine without a rank.
   const KeptLink::Rank rank =
       settings.real_time.priority > 0 ? KeptLink::Rank::kBeforeOthers : KeptLink::Rank::kLikeOthers;
-  return std::make_unique<KeptLink>(settings.link.modbus, link_identity(settings.told()), clock,
-                                    rank, tell);
+  drivers::LinkIdentity identity = link_identity(settings.told());
+  identity.zones = zones;
+  return std::make_unique<KeptLink>(settings.link.modbus, identity, clock, rank, tell);
 }
 
 /// Null: nothing is recorded.
@@ -67,6 +68,13 @@ std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxS
   return std::make_unique<RecordingWriter>(*recorder, settings.record, settings.told(), tell);
 }
 
+/// Null: no pairs are written.
+std::unique_ptr<PairsWriter> make_pairs_writer(PairDesk& desk, const BoxSettings& settings,
+                                               const VisionBox::Tell& tell) {
+  return settings.pairs.wanted() ? std::make_unique<PairsWriter>(desk, settings.pairs.file, tell)
+                                 : nullptr;
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
@@ -74,15 +82,20 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       tell_(std::move(tell)),
       world_(make_world(settings, socket_station_, tell_)),
       source_(world_->source()),
-      kept_link_(make_link(settings, source_.clock(), tell_)),
+      zones_(settings.zones.wanted()
+                 ? std::make_unique<ZoneDesk>(settings.zones.points, settings.told().tubesheet)
+                 : nullptr),
+      kept_link_(make_link(settings, source_.clock(), zones_.get(), tell_)),
       silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
+      pairs_writer_(make_pairs_writer(pair_desk_, settings, tell_)),
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, tell_)),
-      loop_(
-          session_, ports(),
-          {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp)}),
-      tracking_(loop_, source_, {kept_link_.get(), world_->lamp()}, settings.real_time) {}
+      loop_(session_, ports(),
+            {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp),
+             pairs_writer_ == nullptr ? nullptr : &pair_desk_}),
+      tracking_(loop_, source_, {kept_link_.get(), world_->lamp(), pairs_writer_.get()},
+                settings.real_time) {}
 
 /// A robot that is there takes the scripted one's place.
 BoxPorts VisionBox::ports() {
@@ -111,6 +124,12 @@ Result<void> VisionBox::start_without_tracking() {
     return started;
   }
   pose_worker_.start();
+  if (zones_ != nullptr) {
+    zones_->start();
+  }
+  if (pairs_writer_ != nullptr) {
+    pairs_writer_->start();
+  }
   if (writer_ != nullptr) {
     writer_->start();
   }
@@ -141,9 +160,15 @@ void VisionBox::stop() {
   pose_worker_.stop();
   loop_.stop();
   source_.stop();
+  if (pairs_writer_ != nullptr) {
+    pairs_writer_->stop();
+  }
   if (writer_ != nullptr) {
     recorder_->flush();
     writer_->stop();
+  }
+  if (zones_ != nullptr) {
+    zones_->stop();  // may take seconds, while nothing is lost any more
   }
 }
 
@@ -180,6 +205,11 @@ BoxReport VisionBox::report() const {
   report.link_kind = kept_link_ == nullptr ? "none" : "modbus";
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();
+  report.pairs = pairs_writer_ == nullptr ? PairsReport{} : pairs_writer_->report();
+  if (zones_ != nullptr) {
+    report.zones = zones_->places();
+    report.zones_known = zones_->ready();
+  }
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;

@@ -7,16 +7,19 @@
 
 #include "board/box/box_loop.h"
 #include "board/box/event_recorder.h"
+#include "board/box/pair_desk.h"
 #include "board/box/pose_handover.h"
 #include "board/box/pose_service.h"
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
 #include "board/visionbox/silent_link.h"
 #include "board/visionbox/tracking_thread.h"
 #include "board/visionbox/watched_world.h"
+#include "board/visionbox/zone_desk.h"
 #include "core/base/result.h"
 #include "core/session/session.h"
 #include "drivers/control/socket_station.h"
@@ -26,8 +29,8 @@ namespace tubesight::board {
 /// All objects of the box and how they hang together; the only place that knows.
 ///
 /// Which threads there are: the tracking thread (real time), that of the source, that of poses,
-/// that of recordings, and the caller's. What crosses between them does so through queues and
-/// snapshots that nobody waits for. Some 4 MB, and the recorder's memory: heap.
+/// those of recordings and of pairs, and the caller's. What crosses between them does so through
+/// queues and snapshots that nobody waits for. Some 4 MB, and the recorder's memory: heap.
 class VisionBox {
  public:
   using Tell = std::function<void(const std::string&)>;
@@ -80,6 +83,7 @@ class VisionBox {
   drivers::SocketStation socket_station_;
   std::unique_ptr<WatchedWorld> world_;
   FieldSource& source_;
+  std::unique_ptr<ZoneDesk> zones_;      ///< null: no corrections
   std::unique_ptr<KeptLink> kept_link_;  ///< null: the script's robot, if any
   SilentLink silent_link_;
 
@@ -87,6 +91,9 @@ class VisionBox {
   PoseService poses_;
   PoseHandover pose_handover_;
   PoseWorker pose_worker_{pose_handover_};
+
+  PairDesk pair_desk_;
+  std::unique_ptr<PairsWriter> pairs_writer_;  ///< null: no pairs are written
 
   std::unique_ptr<EventRecorder> recorder_;  ///< null: nothing is recorded
   std::unique_ptr<RecordingWriter> writer_;

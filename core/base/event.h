@@ -32,8 +32,24 @@ struct LampCommand {
   bool automatic = false;     ///< what was commanded is over: the level follows the picture
 };
 
+/// Joints whose angles a robot may tell: those of the longest arm that can be calibrated.
+inline constexpr std::int32_t kMaxToldJoints = 8;
+
+/// Where a robot has its tool by its own kinematics, T_base_tool: integers of stated scale.
+struct RobotPose {
+  std::array<std::int64_t, 3> position_nm{};  ///< x, y, z
+  bool turned = false;                        ///< the angles are told
+  std::array<std::int64_t, 3> angles_ndeg{};  ///< alpha, beta, gamma in 1e-9 degrees
+  std::int32_t joints = 0;                    ///< joints whose angles are told
+  std::array<std::int64_t, kMaxToldJoints> joints_ndeg{};
+};
+
 /// The robot asks for its pose.
-struct PoseRequest {};
+struct PoseRequest {
+  /// Where it is by its own account, to be kept beside what the box measures; nothing else is done
+  /// with it. Empty: not told.
+  std::optional<RobotPose> robot;
+};
 
 /// The operator points at a place of the picture.
 struct Pick {

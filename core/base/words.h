@@ -62,13 +62,15 @@ struct Words {
   switch (refusal) {
     case StartRefusal::kNone: break;
     case StartRefusal::kTooFew: return {"too-few", "fewer than three clicks"};
-    case StartRefusal::kNoTubeThere: return {"no-tube-there", "no dark tube-end around a click"};
+    case StartRefusal::kNoTubeThere:
+      return {"no-tube-there", "no dark tube-end around a click: plate, or no light of the lamp"};
     case StartRefusal::kSameTubeTwice: return {"same-tube-twice", "two clicks in one tube-end"};
     case StartRefusal::kAddresses:
       return {"addresses", "the addresses contradict the lattice or its handedness"};
     case StartRefusal::kHeight:
       return {"height", "the tube-ends' distances do not fit a tool below this sheet"};
-    case StartRefusal::kSize: return {"size", "the tube-ends' sizes do not fit bore_mm"};
+    case StartRefusal::kSize:
+      return {"size", "the tube-ends' sizes do not fit bore_mm, or LEDs alone light them"};
     case StartRefusal::kPicture:
       return {"picture", "other tube-ends are not where the clicks put them"};
     case StartRefusal::kMoved:

@@ -33,14 +33,22 @@ struct CalibrationView {
 /// All that a calibration is made from. 1.2 MB: in a workspace.
 struct CalibrationData {
   Sensor sensor;
+  double lens_mm = 0.0;        ///< EFL by the data sheet, 0: not known
   double dot_radius_mm = 0.0;  ///< 0: points, whose images were measured themselves
   StaticVector<SeenDot, kMaxDots> dots;
   StaticVector<CalibrationView, kMaxViews> views;
 };
 
-/// What is fitted: the camera, the stage that carries it, and the free poses.
+/// How far a template's dots stand out of its plane, by the place on it in halves of its extent
+/// from its middle: bow(0) a^2 + bow(1) a b + bow(2) b^2 mm towards its normal.
+using BowValues = Eigen::Vector3d;
+
+/// What is fitted: the camera, the stage that carries it, the free poses, and what a lens and a
+/// template may have beside that.
 struct CalibrationState {
   CameraValues camera = CameraValues::Zero();
+  TangentialValues tangential = TangentialValues::Zero();
+  BowValues bow_mm = BowValues::Zero();
   TargetPose stage;  ///< of the template at height 0
   /// How the template moves in the camera frame for 1 mm of height: along its normal, or near that,
   /// as a stage need not stand quite square to it.

@@ -1,8 +1,11 @@
 #include "core/calibration/camera_calibration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/calibration/camera_choice.h"
+#include "core/calibration/stage_lean.h"
 #include "core/calibration/tsai_start.h"
 
 namespace tubesight::core::calibration {
@@ -17,13 +20,20 @@ constexpr double kMostOfFocal = 0.02;
 
 // A camera of this model shows dots nearer than this; worn photographs of paper leave half of it.
 constexpr double kMostRms_px = 1.0;
-// Dots beyond so many standard deviations are left out; one in five million is by chance.
-constexpr double kOutlier = 6.0;
 constexpr double kMostLeftOut = 0.1;  // of the dots
 
-// The sum of squares falls by about sigma^2 for an unknown that means nothing. By 25 times that:
-// five standard deviations.
-constexpr double kAsksForIt = 25.0;
+// Of one view: an analog camera's scale and any camera's centre, where nobody measured them.
+constexpr double kScaleAssumed = 0.02;
+constexpr double kCenterAssumed = 0.025;  // of the picture's width
+constexpr double kMostOfFocalOneView = 0.1;
+
+// Errors that hang together keep to no normal distribution: twice the standard deviation counts.
+constexpr double kPatternDoubt = 2.0;
+constexpr double kMuchPattern = 4.0;  // growth of the covariance that is the reason of a refusal
+
+// EFL of a lens at another focus than its data sheet's differs by some percent.
+constexpr double kLikeLens = 0.2;
+constexpr double kWidest = 1.7320508075688772;  // the slope of 60 degrees, as core/camera takes it
 
 CalibrationRefusal check_views(const CalibrationData& data) {
   std::int32_t staged = 0;
@@ -36,23 +46,12 @@ CalibrationRefusal check_views(const CalibrationData& data) {
       most = std::max(most, view.height_mm);
     }
   }
-  if (data.views.size() < 2) {
+  if (data.views.size() == 0) {
     return CalibrationRefusal::kOneView;
   }
   // A stage with one view beside free poses is a free pose of its own.
   return staged > 1 && !(most > least) ? CalibrationRefusal::kEqualHeights
                                        : CalibrationRefusal::kNone;
-}
-
-/// Leaves out dots that lie off; how many there are now.
-std::int32_t leave_out(CalibrationData& data, double sigma_px) {
-  std::int32_t count = 0;
-  const double gate = std::max(kOutlier * sigma_px, 0.02);
-  for (SeenDot& dot : data.dots) {
-    dot.used = dot.residual_px.cwiseAbs().maxCoeff() <= gate;
-    count += dot.used ? 0 : 1;
-  }
-  return count;
 }
 
 /// EFL and poses first, with the picture's middle as centre; then everything.
@@ -64,64 +63,89 @@ FitOutcome fit_in_steps(const FitOptions& options, CalibrationData& data, Calibr
   return fit_camera(options, data, state, scratch);
 }
 
-/// Leaves dots out and fits again until none is left that lies off.
-void clean(CalibrationData& data, CalibrationState& state, FitScratch& scratch,
-           CalibrationOutcome& outcome) {
-  constexpr int kRounds = 4;
-  for (int round = 0; round < kRounds; ++round) {
-    const std::int32_t before = outcome.left_out;
-    outcome.left_out = leave_out(data, outcome.fit.sigma_px);
-    if (outcome.left_out == before) {
-      return;
-    }
-    outcome.fit = fit_camera(outcome.freed, data, state, scratch);
+/// Whether the camera can be that of the data sheet, and any that core/camera takes.
+bool is_like_lens(const CalibrationData& data, const CameraValues& camera) {
+  if (data.lens_mm > 0.0 && std::abs(std::log(camera(0) / data.lens_mm)) > kLikeLens) {
+    return false;
   }
+  double widest = 0.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Eigen::Vector2d pixel((corner & 1) * (data.sensor.width_px - 1.0),
+                                (corner >> 1) * (data.sensor.height_px - 1.0));
+    widest = std::max(widest, ideal_of(data.sensor, camera, pixel).norm() / camera(0));
+  }
+  return widest < kWidest;
 }
 
-/// Frees one more thing where that explains the residuals far better than chance would.
-void free_if_asked_for(bool FitOptions::*more, CalibrationData& data, CalibrationState& state,
-                       FitScratch& scratch, CalibrationOutcome& outcome) {
-  FitOptions options = outcome.freed;
-  options.*more = true;
-  CalibrationState trial = state;
-  const FitOutcome fit = fit_camera(options, data, trial, scratch);
-  if (fit.converged && fit.determined &&
-      outcome.fit.sum_px2 - fit.sum_px2 > kAsksForIt * fit.sigma_px * fit.sigma_px) {
-    outcome.fit = fit;
-    outcome.freed = options;
-    state = trial;
-  } else {
-    outcome.fit = fit_camera(outcome.freed, data, state, scratch);  // the residuals again
+/// One view of a plane: EFL, k and the pose, with centre and scale assumed and that uncertainty
+/// carried on. Says whether that tells anything.
+bool fit_one_view(CalibrationData& data, CalibrationState& state, FitScratch& scratch,
+                  CalibrationOutcome& outcome) {
+  // How far a camera's centre lies from the picture's middle, and h_sx from 1, where nobody
+  // measured them.
+  const std::array<double, 3> assumed = {kScaleAssumed, kCenterAssumed * data.sensor.width_px,
+                                         kCenterAssumed * data.sensor.width_px};
+  FitOptions options;
+  options.center_and_scale = false;
+  outcome.fit = fit_camera(options, data, state, scratch);
+  clean(data, state, scratch, outcome, options);
+  if (!outcome.fit.converged || !outcome.fit.determined || !(state.camera(0) > 0.0)) {
+    return false;
   }
+  for (std::size_t i = 0; i < assumed.size(); ++i) {
+    scratch.more = state;
+    scratch.more.camera(static_cast<Eigen::Index>(i) + 1) += assumed[i];
+    const FitOutcome off = fit_camera(options, data, scratch.more, scratch);
+    if (!off.converged) {
+      return false;
+    }
+    const CameraValues change = scratch.more.camera - state.camera;
+    outcome.fit.camera_covariance += change * change.transpose();
+  }
+  static_cast<void>(fit_camera(options, data, state, scratch));  // the residuals again
+  outcome.map = map_uncertainty(data.sensor, state.camera, outcome.fit.camera_covariance);
+  const double sigma = std::sqrt(outcome.fit.camera_covariance(0, 0));
+  return std::isfinite(sigma) && sigma < kMostOfFocalOneView * state.camera(0);
 }
 
 }  // namespace
+
+Verdict verdict_for(double map_rms_px) {
+  return map_rms_px <= kForBase_px   ? Verdict::kBase
+         : map_rms_px <= kForPose_px ? Verdict::kPose
+                                     : Verdict::kTracking;
+}
+
+double map_sigma_px(const Sensor& sensor, const CameraValues& camera,
+                    const math::Matrix6d& covariance, const Eigen::Vector2d& pixel) {
+  constexpr double kStep = 1e-6;
+  // The ray's slope times EFL in pixels: what an error of it moves in the picture.
+  Eigen::Matrix<double, 2, 6> slope;
+  for (int k = 0; k < 6; ++k) {
+    const double step = kStep * std::max(1.0, std::abs(camera(k)));
+    const CameraValues off = step * CameraValues::Unit(k);
+    slope.col(k) = (ideal_of(sensor, camera + off, pixel) / (camera + off)(0) -
+                    ideal_of(sensor, camera - off, pixel) / (camera - off)(0)) /
+                   (2.0 * step);
+  }
+  slope.row(0) *= camera(0) * camera(1) / sensor.column_mm;
+  slope.row(1) *= camera(0) / sensor.row_mm;
+  return std::sqrt((slope * covariance * slope.transpose()).trace());
+}
 
 MapUncertainty map_uncertainty(const Sensor& sensor, const CameraValues& camera,
                                const math::Matrix6d& covariance) {
   constexpr int kColumns = 17;
   constexpr int kRows = 13;
-  constexpr double kStep = 1e-6;
   MapUncertainty result;
   double squares = 0.0;
   for (int i = 0; i < kColumns * kRows; ++i) {
     const Eigen::Vector2d pixel((i % kColumns) * (sensor.width_px - 1.0) / (kColumns - 1),
                                 (i / kColumns) * (sensor.height_px - 1.0) / (kRows - 1));
-    // The ray's slope times EFL in pixels: what an error of it moves in the picture.
-    Eigen::Matrix<double, 2, 6> slope;
-    for (int k = 0; k < 6; ++k) {
-      const double step = kStep * std::max(1.0, std::abs(camera(k)));
-      const CameraValues off = step * CameraValues::Unit(k);
-      slope.col(k) = (ideal_of(sensor, camera + off, pixel) / (camera + off)(0) -
-                      ideal_of(sensor, camera - off, pixel) / (camera - off)(0)) /
-                     (2.0 * step);
-    }
-    slope.row(0) *= camera(0) * camera(1) / sensor.column_mm;
-    slope.row(1) *= camera(0) / sensor.row_mm;
-    const double variance = (slope * covariance * slope.transpose()).trace();
-    squares += variance;
-    if (std::sqrt(variance) > result.worst_px) {
-      result.worst_px = std::sqrt(variance);
+    const double sigma_px = map_sigma_px(sensor, camera, covariance, pixel);
+    squares += sigma_px * sigma_px;
+    if (sigma_px > result.worst_px) {
+      result.worst_px = sigma_px;
       result.worst_u_px = pixel.x();
       result.worst_v_px = pixel.y();
     }
@@ -140,17 +164,22 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   if (const CalibrationRefusal wrong = check_views(data); wrong != CalibrationRefusal::kNone) {
     return refuse(wrong);
   }
+  const bool one_plane = data.views.size() == 1 && !is_solid(data, data.views[0]);
   if (!start_from_views(data, state)) {
-    return refuse(CalibrationRefusal::kNoStart);
+    return refuse(one_plane ? CalibrationRefusal::kOneView : CalibrationRefusal::kNoStart);
+  }
+  if (one_plane) {
+    outcome.assumed = fit_one_view(data, state, scratch, outcome);
+    return refuse(CalibrationRefusal::kOneView);
   }
   outcome.fit = fit_in_steps(outcome.freed, data, state, scratch);
-  const bool staged = std::any_of(data.views.begin(), data.views.end(),
-                                  [](const CalibrationView& view) { return view.staged; });
+  const bool staged = std::count_if(data.views.begin(), data.views.end(),
+                                    [](const CalibrationView& view) { return view.staged; }) > 1;
+  math::Matrix6d lean = math::Matrix6d::Zero();
   if (staged) {
-    free_if_asked_for(&FitOptions::stage_axis, data, state, scratch, outcome);
+    lean = settle_stage_axis(data, state, scratch, outcome);
   }
-  free_if_asked_for(&FitOptions::distortion2, data, state, scratch, outcome);
-  clean(data, state, scratch, outcome);
+  choose_model(data, state, scratch, outcome);
   if (outcome.left_out > kMostLeftOut * data.dots.size()) {
     return refuse(CalibrationRefusal::kManyOutliers);
   }
@@ -160,20 +189,27 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   if (!outcome.fit.converged) {
     return refuse(CalibrationRefusal::kNoFit);
   }
+  outcome.fit.camera_covariance += lean;
   outcome.map = map_uncertainty(data.sensor, state.camera, outcome.fit.camera_covariance);
+  outcome.judged_px = std::hypot((outcome.patterned ? kPatternDoubt : 1.0) * outcome.map.rms_px,
+                                 outcome.tangential.map.rms_px);
+  if (!is_like_lens(data, state.camera)) {
+    return refuse(CalibrationRefusal::kOtherLens);
+  }
   if (outcome.fit.rms_px > kMostRms_px) {
     return refuse(CalibrationRefusal::kPoorFit);
   }
   const double sigma_of_focal = std::sqrt(outcome.fit.camera_covariance(0, 0)) / state.camera(0);
+  if (!(outcome.judged_px <= kForTracking_px) && outcome.grown > kMuchPattern) {
+    return refuse(CalibrationRefusal::kPattern);
+  }
   if (!(sigma_of_focal < kMostOfFocal) || !std::isfinite(outcome.map.rms_px)) {
     return refuse(CalibrationRefusal::kUndetermined);
   }
-  if (!(outcome.map.rms_px <= kForTracking_px)) {
+  if (!(outcome.judged_px <= kForTracking_px)) {
     return refuse(CalibrationRefusal::kTooUncertain);
   }
-  outcome.verdict = outcome.map.rms_px <= kForBase_px   ? Verdict::kBase
-                    : outcome.map.rms_px <= kForPose_px ? Verdict::kPose
-                                                        : Verdict::kTracking;
+  outcome.verdict = verdict_for(outcome.judged_px);
   return outcome;
 }
 

@@ -69,6 +69,14 @@ void DenseNormal::solve(double* step) const {
   substitute(step);
 }
 
+double DenseNormal::gain(const double* step) const {
+  double sum = 0.0;
+  for (std::int32_t i = 0; i < count_; ++i) {
+    sum += right_[static_cast<std::size_t>(i)] * step[i];
+  }
+  return sum;
+}
+
 void DenseNormal::inverse_column(std::int32_t column, double* values) const {
   std::fill_n(values, count_, 0.0);
   values[column] = 1.0;

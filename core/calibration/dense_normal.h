@@ -6,8 +6,9 @@
 
 namespace tubesight::core::calibration {
 
-/// Unknowns of the largest fit: a camera, a stage and 32 free poses.
-inline constexpr std::int32_t kMaxUnknowns = 6 + 8 + 6 * 32;
+/// Unknowns of the largest fit: a camera with tangential distortion, a template's bow, a stage and
+/// 32 free poses.
+inline constexpr std::int32_t kMaxUnknowns = 11 + 8 + 6 * 32;
 
 /// Normal equations of a fit whose size is known when it runs, and their factor. 0.7 MB: in a
 /// workspace.
@@ -25,6 +26,9 @@ class DenseNormal {
 
   /// The step: the factored matrix' solution for the rows' residuals.
   void solve(double* step) const;
+
+  /// By how much the sum of the squared residuals falls with that step: g^T step.
+  [[nodiscard]] double gain(const double* step) const;
 
   /// An element of the factored matrix' inverse, column by column: solves for the unit vector.
   void inverse_column(std::int32_t column, double* values) const;

@@ -17,6 +17,7 @@ namespace {
 struct Alignment {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();  ///< Tx, Ty of the template's origin
+  bool flat = true;  ///< of a plane template; of another the tilt is told
 };
 
 Eigen::Vector2d on_sensor(const Sensor& sensor, const Eigen::Vector2d& pixel) {
@@ -38,9 +39,8 @@ Eigen::Matrix3d complete(double r1, double r2, double r4, double r5) {
   return rotation;
 }
 
-bool align(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
-  using Row = Eigen::Matrix<double, 5, 1>;
-  // Ty divides all: the origin goes to the dot that is farthest from the axis that way.
+/// The dot that is farthest from the axis in v: Ty divides all, so the origin goes there.
+std::int32_t farthest_dot(const CalibrationData& data, const CalibrationView& view) {
   std::int32_t farthest = view.first;
   for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
     if (std::abs(on_sensor(data.sensor, data.dots[i].seen_px).y()) >
@@ -48,6 +48,48 @@ bool align(const CalibrationData& data, const CalibrationView& view, Alignment& 
       farthest = i;
     }
   }
+  return farthest;
+}
+
+/// Of dots that do not lie in a plane, all of the rotation is linear [Tsai1987 sec. II-B]:
+/// d_x (r4 X + r5 Y + r6 Z + Ty) = d_y (r1 X + r2 Y + r3 Z + Tx), over Ty.
+bool align_solid(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
+  using Row = Eigen::Matrix<double, 7, 1>;
+  const std::int32_t farthest = farthest_dot(data, view);
+  const Eigen::Vector3d origin = data.dots[farthest].place_mm;
+  Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
+  Row right = Row::Zero();
+  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+    const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
+    const Eigen::Vector3d w = data.dots[i].place_mm - origin;
+    Row row;
+    row << d.y() * w, d.y(), -d.x() * w;
+    normal += row * row.transpose();
+    right += d.x() * row;
+  }
+  math::Cholesky<7> factor;
+  if (!factor.factor(normal, 1e-12)) {
+    return false;
+  }
+  const Row a = factor.solve(right);
+  const double scale = a.head<3>().squaredNorm() + a.tail<3>().squaredNorm();  // 2 / Ty^2
+  const double ty = std::copysign(std::sqrt(2.0 / scale),
+                                  on_sensor(data.sensor, data.dots[farthest].seen_px).y());
+  const Eigen::Vector3d x = (a.head<3>() * ty).normalized();
+  Eigen::Vector3d y = a.tail<3>() * ty;
+  y = (y - y.dot(x) * x).normalized();
+  alignment.flat = false;
+  alignment.rotation << x.transpose(), y.transpose(), x.cross(y).transpose();
+  alignment.shift = Eigen::Vector2d(a(3) * ty, ty) - (alignment.rotation * origin).head<2>();
+  return alignment.rotation.allFinite();
+}
+
+bool align(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
+  if (is_solid(data, view)) {
+    return align_solid(data, view, alignment);
+  }
+  using Row = Eigen::Matrix<double, 5, 1>;
+  const std::int32_t farthest = farthest_dot(data, view);
   const Eigen::Vector3d origin = data.dots[farthest].place_mm;
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
   Row right = Row::Zero();
@@ -113,6 +155,9 @@ struct Distance {
 
 /// The other tilt that shows the same by parallel projection.
 Alignment mirrored(Alignment alignment) {
+  if (!alignment.flat) {
+    return alignment;
+  }
   alignment.rotation(0, 2) *= -1.0;
   alignment.rotation(1, 2) *= -1.0;
   alignment.rotation(2, 0) *= -1.0;
@@ -126,6 +171,18 @@ void set_pose(const Alignment& alignment, double distance, TargetPose& pose) {
 }
 
 }  // namespace
+
+bool is_solid(const CalibrationData& data, const CalibrationView& view) {
+  constexpr double kShare = 0.03;  // of its width: below, noise tilts the linear solution
+  Eigen::Array3d least = Eigen::Array3d::Constant(HUGE_VAL);
+  Eigen::Array3d most = -least;
+  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+    least = least.min(data.dots[i].place_mm.array());
+    most = most.max(data.dots[i].place_mm.array());
+  }
+  const Eigen::Array3d size = most - least;
+  return size.z() > kShare * std::max(size.x(), size.y());
+}
 
 bool start_from_views(const CalibrationData& data, CalibrationState& state) {
   StaticVector<Alignment, kMaxViews> alignments;

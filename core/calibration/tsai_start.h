@@ -4,7 +4,12 @@
 
 namespace tubesight::core::calibration {
 
-/// A camera and poses to begin a fit with, from coplanar views [Tsai1987].
+/// Whether a view's dots stand out of a plane by more than 3 % of the template's width: then it
+/// tells all of a camera alone.
+[[nodiscard]] bool is_solid(const CalibrationData& data, const CalibrationView& view);
+
+/// A camera and poses to begin a fit with, from views of a plane template or of known points in
+/// space [Tsai1987].
 ///
 /// Stage one, a view alone: a dot's image lies in the direction in which its place lies from the
 /// optical axis, whatever EFL and radial distortion are; linear, with the optical axis taken in the

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/assert.h"
+#include "core/detection/expected_element.h"
 #include "core/detection/spot_weight.h"
 
 namespace tubesight::core::detection {
@@ -16,23 +17,12 @@ constexpr std::array kShares = {0.5, 0.25};
 // shows, and one that was looked for. The next element is a whole step off.
 constexpr double kStranger = 0.3;
 constexpr double kNewcomer = 0.15;
-
-// Its half axes are these shares of those expected, and a fraction of a pixel: a plug's dark inside
-// is smaller, a small dot's form uncertain.
-constexpr double kLeastForm = 0.75;
-constexpr double kMostForm = 1.3;
-constexpr double kForm_px = 0.4;
+// One that a spot shows is measured again where its strangeness is above this.
+constexpr double kDoubtful = 0.85;
 
 // An edge measured around a spot has the spot's own form to this.
 constexpr double kLeastOfSpot = 0.85;
 constexpr double kMostOfSpot = 1.2;
-
-// Elements are looked for this far from an edge expected, in shares of the shorter half axis.
-constexpr double kFirstReach = 0.2;
-constexpr double kLeastReach_px = 2.0;
-constexpr double kMostReach_px = 12.0;
-// Once it is found.
-constexpr double kFineReach_px = 2.5;
 
 // Below this half axis an edge is mostly blur, and the spot is weighed.
 constexpr double kLeastMeasured_px = 6.5;
@@ -45,64 +35,6 @@ constexpr double kFaint = 0.25;
 
 // Nothing smaller is looked for where no spot was found.
 constexpr double kLeastLookedFor_px = 2.0;
-
-// Of an element that no spot showed, this share of the edge must be seen, or, where it is too small
-// for that, this share of its neighbour's contrast.
-constexpr double kLeastShare = 0.5;
-constexpr double kLeastContrast = 0.5;
-
-/// From one edge to the next, by the shorter step in radii.
-double room_of(const Ellipse& ellipse, const Steps& steps) {
-  const double shorter = std::min(steps.column.norm(), steps.row.norm());
-  return std::max(1.0, (shorter - 2.0) * half_axes(ellipse).y());
-}
-
-/// The half axes of an ellipse where another one is the unit circle.
-Eigen::Vector2d axes_by(const Ellipse& expected, const Ellipse& ellipse) {
-  const Eigen::Matrix2d straight = root_of(expected.shape_px2).inverse();
-  return half_axes({{0.0, 0.0}, straight * ellipse.shape_px2 * straight});
-}
-
-/// Whether an ellipse stands where the map expects an element and has its size and form.
-bool fits(const LocalMap& map, const Ellipse& ellipse, const Steps& steps, double gate) {
-  const Ellipse expected = map.element(steps);
-  if (!(half_axes(expected).y() > 0.0)) {
-    return false;
-  }
-  const double off = (map.center_of(ellipse) - map.to_pixel(Eigen::Vector2d::Zero())).norm();
-  const Eigen::Vector2d axes = axes_by(expected, ellipse);
-  const double slack = kForm_px / half_axes(expected).y();
-  return off < gate * map.shorter_step_px() && axes.x() < kMostForm + slack &&
-         axes.y() > kLeastForm - slack;
-}
-
-/// Measures an element where its ellipse is expected: once from afar, once from near.
-bool look_for_edge(const picture::AveragedPicture& stretched, const Steps& steps,
-                   ElementScratch& scratch, LatticeElement& element) {
-  const Ellipse expected = element.ellipse;
-  const double room = room_of(expected, steps);
-  const double reach =
-      std::clamp(kFirstReach * half_axes(expected).y(), kLeastReach_px, kMostReach_px);
-  ElementEdge first;
-  ElementEdge edge;
-  if (!measure_element(stretched, expected, {reach, room}, scratch, first) ||
-      !measure_element(stretched, first.ellipse, {kFineReach_px, room}, scratch, edge)) {
-    return false;
-  }
-  element.ellipse = edge.ellipse;
-  element.share = edge.share;
-  element.rms_px = edge.rms_px;
-  return edge.share >= kLeastShare;
-}
-
-/// The same for an element too small for that; it must be as dark as its neighbour.
-bool look_for_spot(const picture::AveragedPicture& stretched, const Ellipse& neighbour,
-                   const Steps& steps, double least_contrast, LatticeElement& element) {
-  Ellipse other = neighbour;
-  const double usual = weigh_spot(stretched, room_of(other, steps), other);
-  const double contrast = weigh_spot(stretched, room_of(element.ellipse, steps), element.ellipse);
-  return usual > 0.0 && contrast > std::max(least_contrast, kLeastContrast * usual);
-}
 
 /// The picture with dark elements and its darkest at zero.
 picture::AveragedPicture stretch(const picture::AveragedPicture& picture, bool dark,
@@ -144,6 +76,7 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   find_centers(found);
   weigh_all(stretched, found);
   drop_strangers(found);
+  measure_doubtful(stretched, found);
   complete(stretched, found);
   find_centers(found);  // by centres now, as those before were by the ellipses' own
   weigh_all(stretched, found);
@@ -232,20 +165,22 @@ MapPoints LatticeFinder::around(const FoundLattice& found, std::int32_t row, std
   return points;
 }
 
-/// Leaves out what does not look as its neighbours let expect, a plug's dark inside, say; the worst
-/// would also move the others, so that it goes in rounds.
+/// Leaves out what does not look as its neighbours let expect, a plug's dark inside, say. Such a
+/// one makes strangers of those around it, too: of each neighbourhood the worst alone goes, and
+/// then they are looked at again.
 void LatticeFinder::drop_strangers(FoundLattice& found) {
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 8;
+  std::array<float, kMaxElements> strange{};
   for (int round = 0; round < kRounds; ++round) {
-    std::int32_t kept = 0;
+    // All are judged before one goes: the table counts in the list as it is.
     const std::int32_t before = found.elements.size();
     for (std::int32_t i = 0; i < before; ++i) {
-      const LatticeElement element = found.elements[i];
-      LocalMap map;
-      if (!is_faint(found, element) &&
-          (!map.fit(around(found, element.row, element.column, false)) ||
-           fits(map, element.ellipse, found.steps, kStranger))) {
-        found.elements[kept++] = element;
+      strange[static_cast<std::size_t>(i)] = how_strange(found, found.elements[i]);
+    }
+    std::int32_t kept = 0;
+    for (std::int32_t i = 0; i < before; ++i) {
+      if (!is_worst(found, strange, i)) {
+        found.elements[kept++] = found.elements[i];
       }
     }
     found.elements.truncate(kept);
@@ -268,6 +203,52 @@ bool LatticeFinder::is_faint(const FoundLattice& found, const LatticeElement& el
     }
   }
   return element.contrast >= 0.0 && element.contrast * count < kFaint * sum;
+}
+
+/// Measures again, from where the neighbours expect it, what is less like them than it should be:
+/// the spot was joined to a shadow beside it, and the edge followed.
+void LatticeFinder::measure_doubtful(const picture::AveragedPicture& stretched,
+                                     FoundLattice& found) {
+  for (LatticeElement& element : found.elements) {
+    LocalMap map;
+    if (!map.fit(around(found, element.row, element.column, false))) {
+      continue;
+    }
+    const double strange = strangeness(map, element.ellipse, found.steps, kStranger);
+    LatticeElement again = element;
+    again.ellipse = map.element(found.steps);
+    if (strange > kDoubtful && half_axes(again.ellipse).y() >= kLeastMeasured_px &&
+        look_for_edge(stretched, found.steps, element_, again) &&
+        strangeness(map, again.ellipse, found.steps, kStranger) < strange) {
+      again.center_px = map.center_of(again.ellipse);
+      element = again;
+    }
+  }
+}
+
+/// strangeness() of an element by its neighbours; 0 where they do not tell.
+float LatticeFinder::how_strange(const FoundLattice& found, const LatticeElement& element) const {
+  if (is_faint(found, element)) {
+    return static_cast<float>(kMostStrange);
+  }
+  LocalMap map;
+  return map.fit(around(found, element.row, element.column, false))
+             ? static_cast<float>(strangeness(map, element.ellipse, found.steps, kStranger))
+             : 0.0F;
+}
+
+/// Whether an element is a stranger, and none beside it is a worse one.
+bool LatticeFinder::is_worst(const FoundLattice& found,
+                             const std::array<float, kMaxElements>& strange,
+                             std::int32_t index) const {
+  const LatticeElement& element = found.elements[index];
+  const float own = strange[static_cast<std::size_t>(index)];
+  float worst = 1.0F;
+  for (std::int32_t i = 0; i < 9; ++i) {
+    const std::int16_t k = entry(element.row + i / 3 - 1, element.column + i % 3 - 1);
+    worst = k >= 0 ? std::max(worst, strange[static_cast<std::size_t>(k)]) : worst;
+  }
+  return own >= worst && own > 1.0F;
 }
 
 void LatticeFinder::measure_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
@@ -310,19 +291,32 @@ void LatticeFinder::find_centers(FoundLattice& found) {
   }
 }
 
-/// Looks for elements beside those that there are, as long as there are more.
+/// Looks for elements beside those that there are, as long as there are more; then over a lane.
 void LatticeFinder::complete(const picture::AveragedPicture& stretched, FoundLattice& found) {
+  constexpr std::int32_t kLane = 2;
+  std::int32_t beside = 0;  // elements around which all was looked for
+  std::int32_t across = 0;
+  // The list grows while it is walked: what was found now is looked around from, too.
+  while (beside < found.elements.size() || across < found.elements.size()) {
+    if (beside < found.elements.size()) {
+      look_beside(stretched, beside++, 1, found);
+    } else {
+      look_beside(stretched, across++, kLane, found);
+    }
+  }
+}
+
+/// Looks for the elements so many steps from one to all sides.
+void LatticeFinder::look_beside(const picture::AveragedPicture& stretched, std::int32_t from,
+                                std::int32_t steps, FoundLattice& found) {
   constexpr std::array<std::array<std::int32_t, 2>, 8> kSides = {
       {{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
-  // The list grows while it is walked: what was found now is looked around from, too.
-  for (std::int32_t i = 0; i < found.elements.size(); ++i) {
-    for (const auto& side : kSides) {
-      const std::int32_t row = found.elements[i].row + side[0];
-      const std::int32_t column = found.elements[i].column + side[1];
-      if (in_table(row, column) && entry(row, column) == -1 && !found.elements.full() &&
-          !try_place(stretched, i, row, column, found)) {
-        entry(row, column) = -2;  // not again
-      }
+  for (const auto& side : kSides) {
+    const std::int32_t row = found.elements[from].row + steps * side[0];
+    const std::int32_t column = found.elements[from].column + steps * side[1];
+    if (in_table(row, column) && entry(row, column) == -1 && !found.elements.full() &&
+        !try_place(stretched, from, row, column, found)) {
+      entry(row, column) = -2;  // not again
     }
   }
 }
@@ -344,16 +338,35 @@ bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::in
   element.row = row;
   element.column = column;
   element.ellipse = expected;
-  if (!(half_axes(expected).y() < kLeastMeasured_px
-            ? look_for_spot(stretched, found.elements[from].ellipse, found.steps, least_contrast_,
-                            element)
-            : look_for_edge(stretched, found.steps, element_, element)) ||
-      !fits(map, element.ellipse, found.steps, kNewcomer)) {
+  const bool small = half_axes(expected).y() < kLeastMeasured_px;
+  const bool seen = small ? look_for_spot(stretched, found.elements[from].ellipse, found.steps,
+                                          least_contrast_, element)
+                          : look_for_edge(stretched, found.steps, element_, element);
+  if (!(seen && strangeness(map, element.ellipse, found.steps, kNewcomer) <= 1.0) &&
+      (small || !look_for_blob(stretched, map, found, element))) {
     return false;
   }
   element.center_px = map.center_of(element.ellipse);
   entry(row, column) = static_cast<std::int16_t>(found.elements.size());
   return found.elements.try_push_back(element);
+}
+
+/// The same by a spot that was found near there and not ordered: far out, what the neighbours let
+/// expect is too far off for an edge.
+bool LatticeFinder::look_for_blob(const picture::AveragedPicture& stretched, const LocalMap& map,
+                                  const FoundLattice& found, LatticeElement& element) {
+  for (const Blob& blob : blobs_) {
+    if (blob.dark != found.dark ||
+        !(strangeness(map, blob.ellipse, found.steps, kStranger) <= 1.0)) {
+      continue;
+    }
+    element.ellipse = blob.ellipse;
+    if (measure_spot(stretched, found.steps, element_, element) &&
+        strangeness(map, element.ellipse, found.steps, kStranger) <= 1.0) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The centroids of the elements' areas, by their pixels: what an edge fitted by an ellipse is bent

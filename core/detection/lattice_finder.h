@@ -80,8 +80,17 @@ class LatticeFinder {
   void take_places(const Growth& growth, FoundLattice& found);
   void measure_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   void drop_strangers(FoundLattice& found);
+  void measure_doubtful(const picture::AveragedPicture& stretched, FoundLattice& found);
+  [[nodiscard]] float how_strange(const FoundLattice& found, const LatticeElement& element) const;
+  [[nodiscard]] bool is_worst(const FoundLattice& found,
+                              const std::array<float, kMaxElements>& strange,
+                              std::int32_t index) const;
   [[nodiscard]] bool is_faint(const FoundLattice& found, const LatticeElement& element) const;
   void complete(const picture::AveragedPicture& stretched, FoundLattice& found);
+  void look_beside(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t steps,
+                   FoundLattice& found);
+  [[nodiscard]] bool look_for_blob(const picture::AveragedPicture& stretched, const LocalMap& map,
+                                   const FoundLattice& found, LatticeElement& element);
   bool try_place(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t row,
                  std::int32_t column, FoundLattice& found);
   void find_centers(FoundLattice& found);

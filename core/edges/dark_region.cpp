@@ -137,8 +137,10 @@ DarkRegion find_dark_region(const FieldView& field, std::int32_t u_px, std::int3
           frame_q16(vertical.high_q16)};
 }
 
-std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px, std::int32_t v_px,
-                             std::int32_t reach_u_px, std::int32_t reach_v_px) {
+CrossHair look_at_cross_hair(const FieldView& field, std::int32_t u_px, std::int32_t v_px,
+                             std::int32_t reach_u_px, std::int32_t reach_v_px,
+                             std::int32_t threshold) {
+  constexpr std::int32_t kWhite = 250;
   const std::int32_t line = (v_px - field.first_line) / field.line_step;
   const std::int32_t reach_lines = reach_v_px / field.line_step;
   const auto along = [](std::int32_t at, std::int32_t step, std::int32_t size) {
@@ -148,6 +150,15 @@ std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px, std::int
       field.pixels + static_cast<std::ptrdiff_t>(along(line, 0, field.lines)) * field.stride_px;
   const auto* column = field.pixels + along(u_px, 0, field.width_px);
   std::int32_t sum = 0;
+  std::int32_t dark = 0;
+  std::int32_t least = 255;
+  std::int32_t most = 0;
+  const auto take = [&](std::int32_t grey) {
+    sum += grey;
+    dark += grey <= threshold ? 1 : 0;
+    least = std::min(least, grey);
+    most = std::max(most, grey);
+  };
   for (std::int32_t i = 1; i <= 4; ++i) {
     const std::int32_t across = reach_u_px * i / 4;
     const std::int32_t down = reach_lines * i / 4;
@@ -155,10 +166,12 @@ std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px, std::int
       return std::int32_t{
           column[static_cast<std::ptrdiff_t>(along(line, step, field.lines)) * field.stride_px]};
     };
-    sum += row[along(u_px, across, field.width_px)] + row[along(u_px, -across, field.width_px)] +
-           at_line(down) + at_line(-down);
+    take(row[along(u_px, across, field.width_px)]);
+    take(row[along(u_px, -across, field.width_px)]);
+    take(at_line(down));
+    take(at_line(-down));
   }
-  return sum / 16;
+  return {sum / 16, dark, least == most && most < kWhite};
 }
 
 }  // namespace tubesight::core::edges

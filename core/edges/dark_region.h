@@ -34,11 +34,25 @@ struct DarkRegion {
                                           DynamicThreshold& threshold,
                                           std::int32_t reading_step_px = 1);
 
-/// The mean grey value of the 16-pixel cross-hair at a point: four pixels along each arm
-/// [Fallon 6.2], spaced so that an arm spans `reach_u_px` and `reach_v_px`. Arms that leave the
-/// field are cut off at its border.
-[[nodiscard]] std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px,
+/// What a cross-hair shows.
+struct CrossHair {
+  std::int32_t mean = 0;  ///< grey value
+  std::int32_t dark = 0;  ///< pixels of the sixteen that are at most `threshold`
+  bool blank = false;     ///< one grey value alone, as no part of a camera's picture has but white
+};
+
+/// Looks at the 16-pixel cross-hair at a point: four pixels along each arm [Fallon 6.2], spaced so
+/// that an arm spans `reach_u_px` and `reach_v_px`. Arms that leave the field are cut off at its
+/// border.
+[[nodiscard]] CrossHair look_at_cross_hair(const FieldView& field, std::int32_t u_px,
                                            std::int32_t v_px, std::int32_t reach_u_px,
-                                           std::int32_t reach_v_px);
+                                           std::int32_t reach_v_px, std::int32_t threshold = 0);
+
+/// Its mean alone.
+[[nodiscard]] inline std::int32_t cross_hair_mean(const FieldView& field, std::int32_t u_px,
+                                                  std::int32_t v_px, std::int32_t reach_u_px,
+                                                  std::int32_t reach_v_px) {
+  return look_at_cross_hair(field, u_px, v_px, reach_u_px, reach_v_px).mean;
+}
 
 }  // namespace tubesight::core::edges

@@ -36,11 +36,12 @@ std::int32_t LampPattern::sign_after(FieldTime now) {
   return (register_ & 1U) != 0 ? 1 : -1;
 }
 
-std::int32_t swung_permille(std::int32_t permille, std::int32_t sign, std::int32_t most_permille) {
+std::int32_t swung_permille(std::int32_t permille, std::int32_t sign, std::int32_t share_permille,
+                            std::int32_t most_permille) {
   if (permille < kDimmest_permille) {
     return permille;
   }
-  const std::int32_t swing = permille / 100;
+  const std::int32_t swing = permille * share_permille / 1000;
   return std::min(permille, most_permille - swing) + (sign < 0 ? -swing : swing);
 }
 

@@ -9,6 +9,12 @@ namespace tubesight::core::lighting {
 /// How long a level of the pattern is held: some fields, as a lamp follows with a lag.
 inline constexpr FieldTime kChip = std::chrono::milliseconds(50);
 
+/// How far the level swings to either side: as little as a lamp needs that is seen to follow soon,
+/// and the most, until that is seen and of a lamp that follows so slowly that a quarter of it is
+/// left.
+inline constexpr std::int32_t kSwing_permille = 10;
+inline constexpr std::int32_t kWideSwing_permille = 20;
+
 /// The order of brighter and dimmer that a lamp's level swings in: the bits of a shift register
 /// with feedback [x^31 + x^28 + 1], which come back after 3.4 years of 50 ms each. Boxes begin it
 /// at places of their own.
@@ -33,10 +39,9 @@ class LampPattern {
   FieldTime until_{0};          ///< the next bit is due
 };
 
-/// A level and its swing to one side, 1 % of it: from brighter to dimmer it is 2 % and no more.
-/// Below kDimmest_permille nothing swings. Where the swing would pass `most_permille` both sides
-/// are that much lower.
+/// A level and its swing to one side, `share_permille` of it. Below kDimmest_permille nothing
+/// swings. Where the swing would pass `most_permille` both sides are that much lower.
 [[nodiscard]] std::int32_t swung_permille(std::int32_t permille, std::int32_t sign,
-                                          std::int32_t most_permille);
+                                          std::int32_t share_permille, std::int32_t most_permille);
 
 }  // namespace tubesight::core::lighting

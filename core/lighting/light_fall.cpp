@@ -77,7 +77,7 @@ void LightFall::follow(const Look& look) {
   // Each field's change is that since the last of its lines: half of it counts.
   const std::int64_t change_q16 =
       look.change ? std::clamp(look.change->mean_q16, -131'072, 131'072) / 2 - rise_q16 : 0;
-  const std::int64_t passed_us = std::min(passed, kPause).count() / 1000;
+  const std::int64_t passed_us = goes_on ? passed.count() / 1000 : 0;
   expected_q12_ =
       std::clamp<std::int64_t>(expected_q12_ + expected_q12_ * rise_q16 / 65'536, 1, kMostLight);
   trail_q16_ =

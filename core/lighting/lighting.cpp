@@ -51,6 +51,9 @@ void Lighting::look(const Look& look) {
     lights_.clear();  // no tube-ends
   }
   fall_.follow({&field, change, &lights_, look.still, watch_.share_q10()});
+  if (watch_.wants_level()) {
+    return;  // the picture may be another lamp's
+  }
   static_cast<void>(control_.follow(field, lights_, policy_.most_permille));
 }
 
@@ -65,7 +68,7 @@ void Lighting::Lasting::follow(bool so, FieldTime now, FieldTime enough) {
 
 void Lighting::Breakdown::follow(const Field& field, std::optional<std::int32_t> change_q16) {
   const std::int32_t off = std::abs(field.lamp_permille - level_permille_);
-  if (off * 20 > level_permille_) {
+  if (off * 20 > level_permille_ || field.mid_exposure < steady_since_) {
     level_permille_ = field.lamp_permille;
     steady_since_ = field.mid_exposure;
   }
@@ -98,8 +101,11 @@ std::int32_t Lighting::wanted_permille(std::optional<std::int32_t> commanded, Fi
   const std::int32_t own =
       policy_.follows_picture ? control_.level_permille() : policy_.most_permille;
   const std::int32_t level = std::min(commanded.value_or(own), policy_.most_permille);
-  return policy_.pattern ? swung_permille(level, pattern_.sign_after(now), policy_.most_permille)
-                         : level;
+  if (!policy_.pattern) {
+    return level;
+  }
+  const std::int32_t share = watch_.needs_wide_swing() ? kWideSwing_permille : kSwing_permille;
+  return swung_permille(level, pattern_.sign_after(now), share, policy_.most_permille);
 }
 
 LampCondition Lighting::condition() const {

@@ -48,6 +48,9 @@ class Lighting {
   [[nodiscard]] std::int32_t wanted_permille(std::optional<std::int32_t> commanded, FieldTime now);
 
   [[nodiscard]] Liveness liveness() const { return watch_.liveness(); }
+  /// Whether the picture that was seen to follow does so no more, though it is not certain yet:
+  /// nothing in it is to be relied on.
+  [[nodiscard]] bool doubts() const { return watch_.doubts(); }
   [[nodiscard]] LampCondition condition() const;
   [[nodiscard]] const PatternWatch& watch() const { return watch_; }
 

@@ -9,16 +9,9 @@
 #include "core/base/field.h"
 #include "core/base/sighting.h"
 #include "core/lighting/brightness_trail.h"
+#include "core/lighting/pattern_gain.h"
 
 namespace tubesight::core::lighting {
-
-/// Lags of a lamp that are tried: time constants of the first order. An LED has none, a small
-/// incandescent bulb some tenths of a second.
-inline constexpr std::array<std::int32_t, 5> kLags_us = {0, 30'000, 70'000, 130'000, 220'000};
-inline constexpr std::size_t kLags = kLags_us.size();
-/// Differences are taken over so long: a slow lamp needs longer to show more than noise.
-inline constexpr std::size_t kSpans = 2;
-[[nodiscard]] constexpr std::size_t span_of(std::size_t lag) { return lag < 3 ? 0 : 1; }
 
 /// Whether the brightness of the picture follows the levels of the lamp that were in force.
 ///
@@ -43,8 +36,19 @@ class PatternWatch {
   /// the level in force. Instants grow.
   void follow(const Field& field, std::optional<LightChange> change);
 
-  /// kProved and kFailed are held until something else is certain; kProved for 10 s at most.
+  /// kProved and kFailed are held until something else is certain; kProved for 5 s at most, and
+  /// only until the last seconds speak against it.
   [[nodiscard]] Liveness liveness() const { return liveness_; }
+
+  /// Whether a sound lamp that was seen before would have been proved again by now: for a second
+  /// something has spoken against it, and nothing for it.
+  [[nodiscard]] bool doubts() const {
+    return liveness_ == Liveness::kUnknown && doubted_ >= kDoubtsFrom;
+  }
+
+  /// Whether the level should stay, so that it shows soon what is the matter: something speaks
+  /// against a sound lamp, since 5 s at most.
+  [[nodiscard]] bool wants_level() const { return doubted_ > 0 && doubted_ < kMostUndecided; }
 
   /// How much of a change of the level is seen in the picture at this level, 1/1024: the lamp's
   /// share in the light. Empty: it was never proved.
@@ -52,8 +56,16 @@ class PatternWatch {
     return learnt_lag_ < 0 ? std::nullopt : std::optional(std::min(expected_q10(), 1024));
   }
 
+  /// Whether a small swing is not known to be enough: the picture is not proved now or the lamp not
+  /// learnt well yet, or it was seen to follow with so long a lag that little of a swing is left.
+  [[nodiscard]] bool needs_wide_swing() const {
+    return liveness_ != Liveness::kProved || noise_ratio_q10_ == 0 ||
+           span_of(static_cast<std::size_t>(learnt_lag_)) > 0;
+  }
+
   /// How far the gain was below that of a sound lamp when it was looked at last, in its standard
-  /// deviations, 1/16; 0: it was not. For the study of false alarms.
+  /// deviations, 1/16, less those that few fields are allowed beside; 0: it was not. For the study
+  /// of false alarms, one of which needs -96.
   [[nodiscard]] std::int32_t last_score_q4() const { return score_q4_; }
   [[nodiscard]] std::uint32_t looks() const { return next_block_; }
 
@@ -86,76 +98,35 @@ class PatternWatch {
     }
   };
 
-  /// Sums over some time of numbers in 1/65536.
-  struct Sums {
-    struct OfSpan {
-      std::int64_t count = 0;
-      std::int64_t uu = 0;
-      std::int64_t scatter = 0;  ///< squares of the brightness's deviation
-
-      template <typename Self, typename Stream>
-      static void transfer(Self& self, Stream& stream) {
-        auto& [n, squares, deviations] = self;
-        stream.number(n, 0, 1 << 20);
-        stream.number(squares, 0, kMostSum);
-        stream.number(deviations, 0, kMostSum);
-      }
-    };
-    static constexpr std::int64_t kMostSum = std::int64_t{1} << 40;
-
-    std::array<OfSpan, kSpans> spans{};
-    std::array<std::int64_t, kLags> uv{};
-    std::array<std::int64_t, kLags> vv{};
-
-    void add(const Sums& other);
-    template <typename Self, typename Stream>
-    static void transfer(Self& self, Stream& stream) {
-      auto& [of_spans, products, levels] = self;
-      stream(of_spans);
-      for (auto& one : products) {
-        stream.number(one, -kMostSum, kMostSum);
-      }
-      for (auto& one : levels) {
-        stream.number(one, 0, kMostSum);
-      }
-    }
-  };
-
-  /// What sums say of the gain with one lag.
-  struct Gain {
-    bool known = false;
-    std::int32_t q10 = 0;             ///< 1024: all light is the lamp's
-    std::int32_t from_none_q10 = 0;   ///< its deviation in a picture that knows nothing of the lamp
-    std::int32_t from_sound_q10 = 0;  ///< and in that of a sound one
-    std::int32_t tail_q4 = 0;         ///< further deviations that few fields need to be certain
-    std::int64_t count = 0;           ///< fields
-    std::int64_t rest = 0;            ///< what it does not explain: sum of squares, 1/2^24
-    std::int64_t all = 0;             ///< and explains: sum(uu)
-
-    /// So many deviations above `limit_q10`, in 1/16.
-    [[nodiscard]] std::int32_t above_q4(std::int32_t limit_q10) const;
-  };
-
+  static constexpr std::int32_t kMostFields = 1 << 20;
   static constexpr std::int32_t kMostRatio_q10 = 1 << 24;
   static constexpr std::size_t kMoments = 40;      ///< 0.3 s of 120 fields a second
   static constexpr std::int32_t kShortBlocks = 7;  ///< of a quarter of a second
   static constexpr std::int32_t kMiddleBlocks = 14;
   static constexpr std::int32_t kBlocks = 36;
+  static constexpr std::int32_t kDoubtsFrom = 4;
+  static constexpr std::int32_t kMostUndecided = 20;  ///< blocks: 5 s
 
+  bool is_cut(const LightChange& change);
   void sample(const Moment& now, std::size_t span, std::int64_t scatter_q32);
   [[nodiscard]] const Moment* before(const Moment& moment, FieldTime span,
                                      std::uint32_t& place) const;
   void keep_to_level();
   void close_block();
-  [[nodiscard]] Sums sum_of(std::int32_t blocks) const;
-  [[nodiscard]] Gain gain_of(const Sums& sums, std::size_t lag) const;
+  [[nodiscard]] PatternSums sum_of(std::int32_t blocks) const;
+  [[nodiscard]] PatternGain gain_of(const PatternSums& sums, std::size_t lag) const {
+    return core::lighting::gain_of(sums, lag, noise_ratio_q10_);
+  }
   [[nodiscard]] std::int32_t expected_q10() const;
-  [[nodiscard]] Liveness judge(const Sums& sums);
-  [[nodiscard]] Liveness judge_unlearnt(const Sums& sums);
-  void learn(const Sums& sums);
-  [[nodiscard]] std::int32_t likeliest_lag(const Sums& sums) const;
-  void learn_noise(const Gain& gain, const Sums& sums);
-  void hold(Liveness told);
+  [[nodiscard]] std::int32_t from_sound_q4(const PatternGain& gain) const;
+  [[nodiscard]] std::int32_t against_sound_q4(const PatternSums& sums) const;
+  [[nodiscard]] Liveness judge(const PatternSums& sums);
+  [[nodiscard]] Liveness judge_unlearnt(const PatternSums& sums);
+  void learn(const PatternSums& sums);
+  [[nodiscard]] std::int32_t likeliest_lag(const PatternSums& sums) const;
+  void learn_noise(const PatternGain& gain, const PatternSums& sums);
+  [[nodiscard]] bool in_question() const;
+  void hold(Liveness told, bool doubted);
 
   std::array<std::int32_t, kLags> level_q16_{};  ///< led through each lag
   bool led_ = false;
@@ -165,28 +136,32 @@ class PatternWatch {
   std::int32_t chains_ = 0;
 
   std::array<Moment, kMoments> moments_{};
-  std::uint32_t next_moment_ = 0;
-  Sums now_{};  ///< of the block that is not full yet
+  std::uint32_t next_moment_ = kMoments;
+  PatternSums now_{};  ///< of the block that is not full yet
   FieldTime block_until_{0};
-  std::array<Sums, kBlocks> blocks_{};
-  std::uint32_t next_block_ = 0;
+  std::array<PatternSums, kBlocks> blocks_{};
+  std::uint32_t next_block_ = kBlocks;
   std::int32_t blocks_permille_ = 0;  ///< the level that they are about of
 
   std::int32_t level_permille_ = 0;      ///< in force in the last field
   std::int32_t learnt_lag_ = -1;         ///< place in kLags_us; -1: nothing was proved yet
   std::int32_t learnt_gain_q10_ = 0;     ///< of the lamp's light in the picture
   std::int32_t learnt_at_permille_ = 0;  ///< with that level
+  std::int32_t learnt_fields_ = 0;       ///< from so many
   /// What is left over, to the scatter among tube-ends; 0: the gain is not learnt well yet.
   std::int32_t noise_ratio_q10_ = 0;
   Liveness liveness_ = Liveness::kUnknown;
   std::int32_t undecided_ = 0;  ///< blocks since something was certain
+  std::int32_t doubted_ = 0;    ///< of those, blocks since something spoke against a sound lamp
   std::int32_t score_q4_ = 0;
+  std::int64_t usual_scatter_q32_ = 0;  ///< of the last fields
 };
 
 template <typename Self, typename Stream>
 void PatternWatch::transfer(Self& self, Stream& stream) {
   auto& [levels, led, last, lights, chain, chains, moments, next_moment, now, block_until, blocks,
-         next_block, blocks_level, level, lag, gain, gain_at, noise, told, undecided, score] = self;
+         next_block, blocks_level, level, lag, gain, gain_at, fields, noise, told, undecided,
+         doubted, score, usual_scatter] = self;
   for (auto& one : levels) {
     stream.number(one, 0, kFullLamp_permille << 16);
   }
@@ -204,10 +179,13 @@ void PatternWatch::transfer(Self& self, Stream& stream) {
   stream.number(lag, -1, static_cast<std::int32_t>(kLags) - 1);
   stream.number(gain, 0, kMostGain_q10);
   stream.number(gain_at, 0, kFullLamp_permille);
+  stream.number(fields, 0, kMostFields);
   stream.number(noise, 0, kMostRatio_q10);
   stream.choice(told, Liveness::kFailed);
   stream.number(undecided, 0, 1 << 20);
+  stream.number(doubted, 0, 1 << 20);
   stream(score);
+  stream.number(usual_scatter, 0, PatternSums::kMostSum);
 }
 
 }  // namespace tubesight::core::lighting

@@ -113,10 +113,19 @@ Result<math::Matrix6d> calibration_covariance(const PoseModel& model, const pict
   }
   const math::Matrix6d camera =
       carried(*by_camera, covariance_of(uncertainty.camera_sigma, uncertainty.camera_correlation));
+  const math::Matrix6d by_tool = tool_sensitivity(model, estimate);
   const math::Matrix6d tool =
-      carried(tool_sensitivity(model, estimate),
-              covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation));
-  return math::Matrix6d(camera + tool);
+      carried(by_tool, covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation));
+  // With e_f the EFL's error and e_v the tool's: J_f E[e_f e_v^T] J_v^T, and its transpose.
+  math::Vector6d together;
+  for (std::size_t i = 0; i < uncertainty.tool_sigma.size(); ++i) {
+    together(static_cast<Eigen::Index>(i)) = uncertainty.focal_length_correlation[i] *
+                                             uncertainty.camera_sigma[0] *
+                                             uncertainty.tool_sigma[i];
+  }
+  const math::Vector6d carried_together = by_tool.lazyProduct(together);
+  const math::Matrix6d cross = by_camera->col(0).lazyProduct(carried_together.transpose());
+  return math::Matrix6d(camera + tool + cross + cross.transpose());
 }
 
 }  // namespace tubesight::core::pose

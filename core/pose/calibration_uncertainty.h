@@ -28,6 +28,8 @@ struct CalibrationUncertainty {
   /// Of T_camera_tool: x, y, z in mm, alpha, beta, gamma in degrees, as in `[tool]`.
   std::array<double, 6> tool_sigma{};
   math::Matrix6d tool_correlation = math::Matrix6d::Identity();
+  /// Of the six with the camera's EFL, where one docking told both.
+  std::array<double, 6> focal_length_correlation{};
 };
 
 /// Adds `by` to one parameter of the camera.
@@ -48,8 +50,9 @@ void change_parameter(CameraSettings& camera, CameraParameter parameter, double 
 /// The calibrations' share of the covariance of T_sheet_tool, to be added to the picture's: what
 /// `--total` tells. Errors as of camera_sensitivity().
 ///
-/// The two calibrations count as independent of each other. A tool calibration made with the same
-/// camera cancels part of the camera's share where the tool is docked, so this is on the safe side.
+/// The two calibrations count as independent of each other, but for the EFL where docking told it
+/// with the tool: there one makes up for much of the other. A tool calibration made with the same
+/// camera otherwise cancels part of the camera's share, too, so this is on the safe side.
 [[nodiscard]] Result<math::Matrix6d> calibration_covariance(
     const PoseModel& model, const picture::RimList& rims, const PoseEstimate& estimate,
     const CalibrationUncertainty& uncertainty, const RimBundleOptions& options,

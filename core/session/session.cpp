@@ -10,11 +10,10 @@ constexpr bool knows_place(TrackState state) {
   return state == TrackState::kTracking || state == TrackState::kDegraded;
 }
 
-/// Slower than that a tool rests, for the lamp: tube-ends stay where they are in the light.
-constexpr std::int32_t kStill_um_s = 3'000;
-
+/// For the lamp.
 constexpr bool rests(const Sighting& sighting) {
-  const auto slow = [](std::int32_t speed) { return -kStill_um_s < speed && speed < kStill_um_s; };
+  constexpr std::int32_t kRest_um_s = tracking::kRest_mm_s * 1000;
+  const auto slow = [](std::int32_t speed) { return -kRest_um_s < speed && speed < kRest_um_s; };
   return sighting.velocity_known && slow(sighting.velocity_um_s[0]) &&
          slow(sighting.velocity_um_s[1]);
 }
@@ -91,6 +90,10 @@ void Session<S, Margin>::follow_lamp(const Input& input, Output& output) {
                   rests(output.sighting)});
   if (lighting_.liveness() == Liveness::kFailed && knows_place(output.sighting.state)) {
     tracker_.give_up(Reason::kNotLive, input.field, output.sighting, output.tubes);
+  }
+  if (lighting_.doubts()) {  // the track goes on, but which tube the tool is under is not said
+    output.sighting.tool_known = false;
+    output.sighting.aligned = false;
   }
   output.sighting.liveness = lighting_.liveness();
   output.lamp = lighting_.condition();

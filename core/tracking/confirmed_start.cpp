@@ -40,19 +40,22 @@ struct Attempt {
 };
 
 template <Scalar S>
-StartAnswer try_start(const TrackingModel<S>& model, const FieldView& field,
-                      const StartClickList& clicks, const Attempt& attempt,
-                      SheetObserver<S>& observer, Observation<S>& seen) {
+StartAnswer try_start(StartSearch<S>& search, const Attempt& attempt, SheetObserver<S>& observer,
+                      Observation<S>& seen) {
   constexpr int kRounds = 4;
   seen = {};
-  observer.begin();
-  const StartAnswer answer = observer.find_start(field, clicks, attempt.search, seen.pose);
-  if (!answer.taken()) {
-    return answer;
+  const auto& clicked = search.by(attempt.search);
+  observer.begin(clicked.light);
+  if (clicked.overflowed) {
+    raise_overflow_flag();
   }
+  if (!clicked.answer.taken()) {
+    return clicked.answer;
+  }
+  seen.pose = clicked.pose;
   const Mm<S> rough = from_scaled<Mm<S>>(attempt.rough_q4, 4);
   for (int round = 1; round <= kRounds; ++round) {
-    seen = observer.observe(field, {seen.pose, rough, false, round == kRounds});
+    seen = observer.observe(search.field(), {seen.pose, rough, false, round == kRounds});
     if (!seen.fitted) {
       break;
     }
@@ -60,7 +63,8 @@ StartAnswer try_start(const TrackingModel<S>& model, const FieldView& field,
   if (!seen.fitted || seen.contradiction || seen.fit.used < 3) {
     return StartRefusal::kPicture;
   }
-  if (const StartAnswer confirmed = confirm_clicks<S>(model, seen, clicks); !confirmed.taken()) {
+  if (const StartAnswer confirmed = confirm_clicks<S>(search.model(), seen, search.clicks());
+      !confirmed.taken()) {
     return confirmed;
   }
   const bool refuted =
@@ -71,8 +75,7 @@ StartAnswer try_start(const TrackingModel<S>& model, const FieldView& field,
 }  // namespace
 
 template <Scalar S>
-StartAnswer find_confirmed_start(const TrackingModel<S>& model, const FieldView& field,
-                                 const StartClickList& clicks, SheetObserver<S>& observer,
+StartAnswer find_confirmed_start(StartSearch<S>& search, SheetObserver<S>& observer,
                                  Observation<S>& seen) {
   // Bisection is enough in a clean picture. Circles mislead less; at their last attempt so little
   // that the tube-ends around need no bisection either.
@@ -82,7 +85,7 @@ StartAnswer find_confirmed_start(const TrackingModel<S>& model, const FieldView&
   StartAnswer answer;
   for (const Attempt& attempt : kAttempts) {
     static_cast<void>(take_overflow_flag());  // of a pose that is not used
-    answer = try_start<S>(model, field, clicks, attempt, observer, seen);
+    answer = try_start<S>(search, attempt, observer, seen);
     // What the map refutes it would refute again, and circles are looked for once, but where the
     // window did not confirm them.
     const bool final = answer.taken() || answer.refusal == StartRefusal::kTooFew ||
@@ -96,10 +99,8 @@ StartAnswer find_confirmed_start(const TrackingModel<S>& model, const FieldView&
   return answer;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                          \
-  template StartAnswer find_confirmed_start<S>(const TrackingModel<S>&, const FieldView&, \
-                                               const StartClickList&, SheetObserver<S>&,  \
-                                               Observation<S>&);
+#define TUBESIGHT_INSTANTIATE(S) \
+  template StartAnswer find_confirmed_start<S>(StartSearch<S>&, SheetObserver<S>&, Observation<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

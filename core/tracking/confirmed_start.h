@@ -16,8 +16,7 @@ namespace tubesight::core::tracking {
 /// bore of the very tube that it was given the address of, and of the sites that the settings say
 /// are closed no more than two may look open. `seen` is fitted on kNone only.
 template <Scalar S>
-[[nodiscard]] StartAnswer find_confirmed_start(const TrackingModel<S>& model,
-                                               const FieldView& field, const StartClickList& clicks,
-                                               SheetObserver<S>& observer, Observation<S>& seen);
+[[nodiscard]] StartAnswer find_confirmed_start(StartSearch<S>& search, SheetObserver<S>& observer,
+                                               Observation<S>& seen);
 
 }  // namespace tubesight::core::tracking

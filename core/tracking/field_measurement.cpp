@@ -11,24 +11,11 @@
 #include "core/edges/dark_region.h"
 #include "core/edges/edge_search.h"
 #include "core/tracking/projection.h"
+#include "core/tracking/rim_box.h"
 #include "core/tracking/rim_outline.h"
 
 namespace tubesight::core::tracking {
 namespace {
-
-// A rim's bounding box in whole pixels.
-struct Box {
-  std::int32_t u = 0;
-  std::int32_t v = 0;
-  std::int32_t half_u = 0;
-  std::int32_t half_v = 0;
-};
-
-template <Scalar S>
-Box box_of(const RimOutline<S>& rim) {
-  return {rounded(rim.middle.x), rounded(rim.middle.y), rounded(rim.half_extent.x),
-          rounded(rim.half_extent.y)};
-}
 
 // A quick look whether a rim will leave the window: a tilted circle's image still reaches over 0.45
 // of its upright radius in every direction that a toolhead camera sees.
@@ -45,7 +32,7 @@ bool cut_by_window(const TrackingModel<S>& model, const Vector2<Px<S>>& center, 
 
 // A plug's hole is narrower than the tube-end: a wide upper edge on fillet sheets, a shadow between
 // rim and hole on flush ones [Fallon 6.5]. Both leave a dark region well below the rim's top.
-bool is_plug_hole(const edges::DarkRegion& region, const Box& box) {
+bool is_plug_hole(const edges::DarkRegion& region, const RimBox& box) {
   if (!region.found) {
     return false;
   }
@@ -60,6 +47,8 @@ bool is_plug_hole(const edges::DarkRegion& region, const Box& box) {
 
 constexpr std::int32_t kLeastHalfHeightPx = 7;
 
+constexpr std::int32_t kNearlyAll = 13;  // of the pixels of a cross-hair
+
 // The rim of a fillet weld is bright for a few pixels only, with its shadow behind: six pixels
 // ahead would average the two.
 constexpr std::int32_t kFilletTaps = 4;
@@ -72,19 +61,11 @@ MeasurementBounds bounds_of(const TrackingModel<S>& model) {
   return bounds;
 }
 
-// Readings of a search for this rim: coarse ones need as many of them across the rim as there are
-// pixels across a small one.
-template <Scalar S>
-std::int32_t reading_step(const TrackingModel<S>& model, const Box& box) {
-  constexpr std::int32_t kReadings = 10;
-  return std::clamp(box.half_v / kReadings, 1, model.reading_step_px);
-}
-
 // A site whose rim lies in the window, and is large enough to be measured.
 template <Scalar S>
 struct SiteInView {
   RimOutline<S> rim;
-  Box box;
+  RimBox box;
 };
 
 template <Scalar S>
@@ -98,17 +79,62 @@ std::optional<SiteInView<S>> in_view(const TrackingModel<S>& model, const SheetP
   if (!rim) {
     return std::nullopt;
   }
-  const Box box = box_of<S>(*rim);
+  const RimBox box = box_of<S>(*rim);
   if (box.half_v < kLeastHalfHeightPx) {
     return std::nullopt;
   }
   return SiteInView<S>{*rim, box};
 }
 
+// The mean of the sheet a fifth of the radius outside a rim.
+template <Scalar S>
+std::int32_t grey_around(const FieldView& field, const RimOutline<S>& rim) {
+  std::int32_t sum = 0;
+  for (const Vector2<Px<S>>& point : rim.points) {
+    const auto outwards = [](Px<S> at, Px<S> middle) {
+      return rounded(at) + (rounded(at) - rounded(middle)) / 5;
+    };
+    const std::int32_t u = outwards(point.x, rim.middle.x);
+    const std::int32_t line =
+        (outwards(point.y, rim.middle.y) - field.first_line) / field.line_step;
+    sum += field.pixels[static_cast<std::ptrdiff_t>(std::clamp(line, 0, field.lines - 1)) *
+                            field.stride_px +
+                        std::clamp(u, 0, field.width_px - 1)];
+  }
+  return sum / kRimPoints;
+}
+
+// Whether a tube-end that was not measured is one grey value alone, a quarter of its radius beyond
+// the rim, too.
+bool is_blank(const FieldView& field, const RimBox& box) {
+  return edges::look_at_cross_hair(field, box.u, box.v, box.half_u * 5 / 4, box.half_v * 5 / 4)
+      .blank;
+}
+
+// Counts and lists a tube-end that was not measured. `blank`: one grey value, its rim and beyond;
+// `flat`: as dark around as inside.
+void note_site(TubeAddress address, Finding finding, bool blank, bool flat, FindingCount& count,
+               SiteSightings& sites) {
+  count.blank += blank ? 1 : 0;
+  if (finding == Finding::kBright) {
+    ++count.bright;
+    count.bright_blank += blank ? 1 : 0;
+    if (sites.bright.try_push_back(address) && blank) {
+      sites.blank |= std::uint32_t{1} << (sites.bright.size() - 1);
+    }
+  }
+  if (finding == Finding::kDisagrees) {
+    ++count.disagreeing;
+    if (sites.dark.try_push_back(address) && flat) {
+      sites.flat |= std::uint32_t{1} << (sites.dark.size() - 1);
+    }
+  }
+}
+
 // What a tube-end that was not measured says about a plug.
 template <Scalar S>
 void note_plug(const FieldView& field, TubeAddress address, const Vector2<Px<S>>& center,
-               const Box& box, const MeasurementBounds& look, Finding finding,
+               const RimBox& box, const MeasurementBounds& look, Finding finding,
                FieldRecord<S>& record) {
   bool plug = finding == Finding::kBright;
   if (finding == Finding::kDisagrees) {
@@ -151,16 +177,18 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
     tube.address = candidate.address;
     tube.local = candidate.local;
     tube.predicted_px = rim.center;
-    const std::int32_t inside =
-        edges::cross_hair_mean(field, box.u, box.v, box.half_u / 2, box.half_v / 2);
+    const auto [inside, dark, still] = edges::look_at_cross_hair(
+        field, box.u, box.v, box.half_u / 2, box.half_v / 2, light.region_threshold);
     Finding finding = Finding::kBright;
     bounds.step_px = reading_step<S>(model, box);
-    if (inside <= light.region_threshold) {
+    // Specks spoil the mean, not the most of the pixels.
+    if (inside <= light.region_threshold || dark >= kNearlyAll) {
       bounds.range_px = std::min(look.range_px, std::max(3, box.half_u / 2));
       finding = measure_tube<S>(field, rim, bounds, light.edge_threshold, tube);
     }
     if (finding == Finding::kMeasured) {
       ++count.measured;
+      count.noisy += still ? 0 : 1;
       record.plugs.saw_open(candidate.address);
       static_cast<void>(record.measured.try_push_back(tube));
       // Midway between this tube-end's inside and its surroundings, followed slowly.
@@ -169,42 +197,15 @@ FindingCount measure_field(const TrackingModel<S>& model, const FieldView& field
       light.region_threshold = std::max(light.region_threshold, 16);
       continue;
     }
-    if (finding == Finding::kBright) {
-      ++count.bright;
-      static_cast<void>(record.sites.bright.try_push_back(candidate.address));
-    }
-    if (finding == Finding::kDisagrees) {
-      ++count.disagreeing;
-      static_cast<void>(record.sites.dark.try_push_back(candidate.address));
-    }
+    const bool flat =
+        finding == Finding::kDisagrees && grey_around<S>(field, rim) <= light.region_threshold;
+    note_site(candidate.address, finding, still && is_blank(field, box), flat, count, record.sites);
     MeasurementBounds around = bounds;
     around.range_px = look.range_px;
     note_plug<S>(field, candidate.address, rim.center, box, around, finding, record);
   }
   return count;
 }
-
-namespace {
-
-// The mean of the sheet a fifth of the radius outside a rim.
-template <Scalar S>
-std::int32_t grey_around(const FieldView& field, const RimOutline<S>& rim) {
-  std::int32_t sum = 0;
-  for (const Vector2<Px<S>>& point : rim.points) {
-    const auto outwards = [](Px<S> at, Px<S> middle) {
-      return rounded(at) + (rounded(at) - rounded(middle)) / 5;
-    };
-    const std::int32_t u = outwards(point.x, rim.middle.x);
-    const std::int32_t line =
-        (outwards(point.y, rim.middle.y) - field.first_line) / field.line_step;
-    sum += field.pixels[static_cast<std::ptrdiff_t>(std::clamp(line, 0, field.lines - 1)) *
-                            field.stride_px +
-                        std::clamp(u, 0, field.width_px - 1)];
-  }
-  return sum / kRimPoints;
-}
-
-}  // namespace
 
 template <Scalar S>
 bool follow_darkness(const TrackingModel<S>& model, const FieldView& field,
@@ -285,7 +286,7 @@ std::optional<Vector2<Mm<S>>> shift_of(const TrackingModel<S>& model, const Fiel
   if (!rim) {
     return std::nullopt;
   }
-  const Box box = box_of<S>(*rim);
+  const RimBox box = box_of<S>(*rim);
   // The predicted place first, then places most of a radius around it: the small local search.
   constexpr std::array<std::array<std::int32_t, 2>, 9> kAround{
       {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};

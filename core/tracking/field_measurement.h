@@ -19,13 +19,19 @@ struct FindingCount {
   std::int32_t measured = 0;
   std::int32_t bright = 0;  ///< no dark inside where one should be
   std::int32_t disagreeing = 0;
-  std::int32_t next = 0;  ///< position of the first candidate not looked at
+  std::int32_t noisy = 0;         ///< measured, and not one grey value inside
+  std::int32_t blank = 0;         ///< not measured, and one grey value from inside to outside
+  std::int32_t bright_blank = 0;  ///< of these, the bright ones
+  std::int32_t next = 0;          ///< position of the first candidate not looked at
 
   FindingCount& operator+=(const FindingCount& other) {
     looked_at += other.looked_at;
     measured += other.measured;
     bright += other.bright;
     disagreeing += other.disagreeing;
+    noisy += other.noisy;
+    blank += other.blank;
+    bright_blank += other.bright_blank;
     next = other.next;
     return *this;
   }
@@ -74,12 +80,17 @@ struct SiteSightings {
   List closed;  ///< as they should be
   List bright;  ///< and should be open tube-ends
   List dark;    ///< as they should be, but without a rim
+  /// Bit n: bright[n] is one grey value from inside to outside.
+  std::uint32_t blank = 0;
+  std::uint32_t flat = 0;  ///< bit n: around dark[n] the sheet is as dark as inside it
 
   void clear() {
     open.clear();
     closed.clear();
     bright.clear();
     dark.clear();
+    blank = 0;
+    flat = 0;
   }
 };
 

@@ -23,7 +23,7 @@ Rest rest_of(const Motion<S>& motion) {
     return absolute(motion.approach_mm_s) < approach && absolute(turn.x) < turned &&
            absolute(turn.y) < turned && absolute(turn.z) < turned;
   };
-  const M fastest = constant<M>(3.0);
+  const M fastest = M(kRest_mm_s);
   if (!motion.known || plane_length(motion.velocity_mm_s) >= fastest) {
     return Rest::kNone;
   }

@@ -32,14 +32,18 @@ struct Motion {
   }
 };
 
+/// Slower than that over the sheet a tool rests: tube-ends stay where they are in picture and
+/// light.
+inline constexpr std::int32_t kRest_mm_s = 3;
+
 /// How far tool and picture stand still, as a picture tells.
 enum class Rest : std::uint8_t {
   kNone,
-  /// Under 3 mm/s over the sheet, and under 10 mm/s in height and 7 degrees a second in any turn,
-  /// which few tube-ends tell no better: the picture moves by half a pixel at most.
+  /// Under kRest_mm_s over the sheet, and under 10 mm/s in height and 7 degrees a second in any
+  /// turn, which few tube-ends tell no better: the picture moves by half a pixel at most.
   kNearly,
-  /// Under 3 mm/s in height, too, a twentieth of a millimetre from field to field, and 2 degrees a
-  /// second.
+  /// Under kRest_mm_s in height, too, a twentieth of a millimetre from field to field, and 2
+  /// degrees a second.
   kStill,
 };
 

@@ -24,14 +24,26 @@ bool OldPictureWatch::shows_old(const Field& field, const PixelBox& window, bool
   likeness_ = memory_.look(field.pixels, field.parity, window, expected_noise());
   const bool noisy = source_ == Source::kNoisy;
   const bool repeated = noisy && likeness_.equal >= kTorn + 2 * most_equal_;
-  const bool stands = moves && likeness_.equal_edges >= kStandingEdges;
+  const bool standing = likeness_.equal_edges >= kStandingEdges;
+  const bool stands = moves && standing;
   const bool quiet = is_quiet();
   const bool old = repeated || stands || (quiet && quiet_);
   quiet_ = quiet;
   if (!old && !quiet) {
     memory_.keep(field.pixels, field.parity, window);
   }
+  age(old, standing);
   return old;
+}
+
+void OldPictureWatch::age(bool old, bool standing) {
+  if (old) {
+    aged_ = aged_ == Aged::kStood ? Aged::kOldAgain : Aged::kOld;
+  } else if (!standing) {
+    aged_ = Aged::kFresh;
+  } else if (aged_ == Aged::kOld) {
+    aged_ = Aged::kStood;
+  }
 }
 
 // Where the picture got darker the photons' share of the noise went with it: its variance is as the

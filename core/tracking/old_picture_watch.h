@@ -36,6 +36,11 @@ class OldPictureWatch {
   /// picture.
   [[nodiscard]] bool shows_old(const Field& field, const PixelBox& window, bool moves);
 
+  /// Whether pictures have been old, believed while their edges stood, and old again: a store that
+  /// holds a field of each parity shows the tool going to and fro, which now and then looks like
+  /// the end of its motion. A live picture shows fresh edges in between.
+  [[nodiscard]] bool stays_old() const { return aged_ == Aged::kOldAgain; }
+
   /// The field looked at last was believed; `rest`: how far it shows the tool standing still.
   void believe(Rest rest);
 
@@ -45,7 +50,7 @@ class OldPictureWatch {
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
     auto& [memory, source, quiet, likeness, rested, still, most_equal, learnt, noise, grey,
-           contrast] = self;
+           contrast, aged] = self;
     stream(memory);
     stream.choice(source, Source::kRepeating);
     stream(quiet, likeness);
@@ -56,14 +61,24 @@ class OldPictureWatch {
     stream.number(noise, 0, 1 << 28);
     stream.number(grey, 0, 1 << 12);
     stream.number(contrast, 0, 1 << 24);
+    stream.choice(aged, Aged::kOldAgain);
   }
 
  private:
   static constexpr std::int32_t kMostLearnt = 16;  ///< fields that the usual noise is the mean of
 
+  /// What was seen since a picture was old.
+  enum class Aged : std::uint8_t {
+    kFresh,  ///< none was, or edges that do not stand
+    kOld,    ///< nothing but old pictures
+    kStood,  ///< pictures that were not taken to be old, though their edges stood
+    kOldAgain,
+  };
+
   [[nodiscard]] std::int32_t expected_noise() const;
   [[nodiscard]] bool is_quiet() const;
   void learn_noise();
+  void age(bool old, bool standing);
 
   PictureMemory memory_{};
   Source source_ = Source::kUnknown;
@@ -76,6 +91,7 @@ class OldPictureWatch {
   std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness
   std::int32_t grey_q4_ = 0;     ///< of the blocks that showed it
   std::int32_t contrast_ = 0;    ///< of the pictures that showed it
+  Aged aged_ = Aged::kFresh;
 };
 
 }  // namespace tubesight::core::tracking

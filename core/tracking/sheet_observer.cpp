@@ -13,6 +13,9 @@
 namespace tubesight::core::tracking {
 namespace {
 
+// Tube-ends that fit one pose: no chance.
+constexpr std::int32_t kMany = 8;
+
 // How far a rim may be from where a good pose puts it, in readings of a search.
 constexpr std::int32_t kCloseRange = 3;
 
@@ -83,12 +86,30 @@ void judge_deviations(const TrackingModel<S>& model, const NormalEquations<S>& e
       plane_length(Vector2<M>{seen.picture_deviation_mm, systematic_deviation_mm<M>()});
 }
 
+// Leaves out what is seen of nothing: sites that are one grey value alone, far beyond their rims,
+// where tube-ends show that the camera has noise. A cloth, a shutter or a title hides them.
+void leave_out_blank(FindingCount& found, SiteSightings& sites) {
+  if (found.blank == 0 || 2 * found.noisy <= found.measured) {
+    return;
+  }
+  found.looked_at -= found.blank;
+  found.bright -= found.bright_blank;
+  std::int32_t kept = 0;
+  for (std::int32_t i = 0; i < sites.bright.size(); ++i) {
+    if (((sites.blank >> static_cast<unsigned>(i)) & 1U) == 0) {
+      sites.bright[kept++] = sites.bright[i];
+    }
+  }
+  sites.bright.truncate(kept);
+  sites.blank = 0;
+}
+
 }  // namespace
 
 template <Scalar S>
-void SheetObserver<S>::begin() {
+void SheetObserver<S>::begin(const LightLevels& light) {
   record_.plugs.clear();
-  record_.light = first_light<S>(*model_);
+  record_.light = light;
 }
 
 template <Scalar S>
@@ -125,15 +146,15 @@ Observation<S> SheetObserver<S>::observe(const FieldView& field, const Expectati
     constexpr std::int32_t kBisectedRange = 6;
     range_px = kBisectedRange * step_px;
   }
-  FindingCount found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
-  if (found.measured == 0 && found.bright > 2 &&
-      follow_darkness<S>(*model_, field, seen.pose, candidates_, record_.light)) {
-    found = measure(field, range_px, prior_of<S>(*model_, expected), seen);
-  }
+  FindingCount found = measure_in_any_light(field, range_px, prior_of<S>(*model_, expected), seen);
+  leave_out_blank(found, record_.sites);
   seen.looked_at = found.looked_at;
+  // Half of them, or many and next to none bright: what is dark without a rim is in poor light.
+  const bool confirmed = 2 * found.measured >= found.looked_at ||
+                         (seen.fit.used >= kMany && 4 * found.bright <= seen.fit.used);
   // Sheet where tube-ends should be: a few are plugs, many are a wrong prediction.
   seen.contradiction = (found.bright > std::max(seen.fit.used, 2) && !outweighs_bright(seen.fit)) ||
-                       (expected.confirm_all && 2 * found.measured < found.looked_at);
+                       (expected.confirm_all && !confirmed);
   if (!seen.fit.solved || seen.fit.used < 2) {
     return no_tubes();
   }
@@ -171,11 +192,31 @@ FindingCount SheetObserver<S>::measure(const FieldView& field, std::int32_t rang
   return found;
 }
 
+// Where nothing is dark enough the light may be another. A threshold that somebody set stays, and
+// what bright tube-ends looked like is no plug; a light that tube-ends do not prove is forgotten.
+template <Scalar S>
+FindingCount SheetObserver<S>::measure_in_any_light(const FieldView& field, std::int32_t range_px,
+                                                    const PosePrior<S>& prior,
+                                                    Observation<S>& seen) {
+  const LightLevels light = record_.light;
+  const PlugMemory plugs = record_.plugs;
+  FindingCount found = measure(field, range_px, prior, seen);
+  if (found.measured > 0 || found.bright <= 2 || model_->region_threshold != 0 ||
+      !follow_darkness<S>(*model_, field, seen.pose, candidates_, record_.light)) {
+    return found;
+  }
+  record_.plugs = plugs;
+  found = measure(field, range_px, prior, seen);
+  if (found.bright > std::max(seen.fit.used, 2) || seen.fit.used < 2) {
+    record_.light = light;
+  }
+  return found;
+}
+
 // Whether what fits is worth more than all that is bright: tube-ends enough to be no chance, and
 // the bright ones one patch that no other addresses explain, not those of an edge far away either.
 template <Scalar S>
 bool SheetObserver<S>::outweighs_bright(const PoseFit<S>& fit) const {
-  constexpr std::int32_t kMany = 8;
   return fit.solved && fit.used >= kMany && is_one_patch<S>(*model_, record_.sites.bright) &&
          !fits_other_addresses() && !fits_an_edge<S>(*model_, *map_, record_);
 }
@@ -196,12 +237,6 @@ Observation<S> SheetObserver<S>::glance(const FieldView& field, const Expectatio
   record_.light = light;
   record_.plugs = plugs;
   return seen;
-}
-
-template <Scalar S>
-StartAnswer SheetObserver<S>::find_start(const FieldView& field, const StartClickList& clicks,
-                                         ClickSearch search, SheetPose<S>& pose) {
-  return find_start_pose<S>(*model_, *map_, field, clicks, search, record_.light, pose);
 }
 
 TUBESIGHT_INSTANTIATE_CLASS(SheetObserver)

@@ -25,7 +25,8 @@ struct Expectation {
   SheetPose<S> pose{};       ///< the predicted one
   Mm<S> reach_mm{};          ///< how far the tool may be from where it puts it
   bool from_motion = false;  ///< turn and height are as predicted, but for what a field may change
-  bool confirm_all = false;  ///< half of the tube-ends looked at must be there
+  bool confirm_all =
+      false;  ///< the tube-ends looked at must be there: half, or many where it is dark
 };
 
 /// How well height, heading and lean are known, one standard deviation each.
@@ -87,7 +88,9 @@ class SheetObserver {
       : model_(&model), map_(&map) {}
 
   /// A new start: what was learnt of light and plugs is forgotten.
-  void begin();
+  void begin() { begin(first_light<S>(*model_)); }
+  /// In this light.
+  void begin(const LightLevels& light);
 
   /// No tube-ends are seen in this field, or none that may be told.
   void clear_field() { record_.begin_field(); }
@@ -98,10 +101,6 @@ class SheetObserver {
   /// observe() that learns nothing: for a picture that is not believed. A number that leaves its
   /// range costs this look alone: it shows nothing then.
   [[nodiscard]] Observation<S> glance(const FieldView& field, const Expectation<S>& expected);
-
-  /// The operator's clicks as a rough pose: find_start_pose() with this observer's light.
-  [[nodiscard]] StartAnswer find_start(const FieldView& field, const StartClickList& clicks,
-                                       ClickSearch search, SheetPose<S>& pose);
 
   /// Whether the field looked at last fits the settings' lists better with other addresses.
   [[nodiscard]] bool fits_other_addresses() const {
@@ -121,6 +120,8 @@ class SheetObserver {
 
  private:
   [[nodiscard]] bool outweighs_bright(const PoseFit<S>& fit) const;
+  [[nodiscard]] FindingCount measure_in_any_light(const FieldView& field, std::int32_t range_px,
+                                                  const PosePrior<S>& prior, Observation<S>& seen);
   [[nodiscard]] FindingCount measure(const FieldView& field, std::int32_t range_px,
                                      const PosePrior<S>& prior, Observation<S>& seen);
 

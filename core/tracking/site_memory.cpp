@@ -19,23 +19,23 @@ void SiteMemory::saw_tube_end(TubeAddress address) {
   if (!is_known(site) && known_.try_push_back(site)) {
     in_view_ |= std::uint64_t{1} << static_cast<unsigned>(known_.size() - 1);
   }
-  auto* const found = std::find(bright_.begin(), bright_.end(), site);
-  if (found != bright_.end()) {
-    *found = bright_[bright_.size() - 1];
-    bright_.truncate(bright_.size() - 1);
+  auto* const found = std::find(closed_.begin(), closed_.end(), site);
+  if (found != closed_.end()) {
+    *found = closed_[closed_.size() - 1];
+    closed_.truncate(closed_.size() - 1);
   }
 }
 
-void SiteMemory::saw_bright(TubeAddress address, bool clear, TubeAddress tool) {
+void SiteMemory::saw_closed(TubeAddress address, bool clear, TubeAddress tool) {
   const Short site = short_of(address);
-  if (is_known(site) || !clear || has(bright_, site) || bright_.try_push_back(site)) {
+  if (is_known(site) || !clear || has(closed_, site) || closed_.try_push_back(site)) {
     return;
   }
   const auto steps = [tool](Short from) {
     return std::max(std::abs(from.row - tool.row), std::abs(from.column - tool.column));
   };
   auto* const farthest = std::max_element(
-      bright_.begin(), bright_.end(), [&steps](Short a, Short b) { return steps(a) < steps(b); });
+      closed_.begin(), closed_.end(), [&steps](Short a, Short b) { return steps(a) < steps(b); });
   if (steps(site) < steps(*farthest)) {
     *farthest = site;
   }

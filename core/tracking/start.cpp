@@ -6,6 +6,7 @@
 
 #include "core/base/constant.h"
 #include "core/base/instantiate.h"
+#include "core/base/overflow.h"
 #include "core/tracking/projection.h"
 #include "core/tracking/rim_outline.h"
 #include "core/tracking/tool_point.h"
@@ -250,11 +251,29 @@ StartAnswer find_start_pose(const TrackingModel<S>& model, const tubesheet::Shee
   return StartRefusal::kNone;
 }
 
+template <Scalar S>
+const typename StartSearch<S>::Found& StartSearch<S>::by(ClickSearch search) {
+  std::optional<Found>& found = found_[search == ClickSearch::kRound ? 1 : 0];
+  if (!found) {
+    const bool before = take_overflow_flag();
+    found.emplace();
+    found->light = first_light<S>(*model_);
+    found->answer =
+        find_start_pose<S>(*model_, *map_, *field_, *clicks_, search, found->light, found->pose);
+    found->overflowed = take_overflow_flag();
+    if (before) {
+      raise_overflow_flag();
+    }
+  }
+  return *found;
+}
+
 #define TUBESIGHT_INSTANTIATE(S)                                                                \
   template StartAnswer find_start_pose<S>(const TrackingModel<S>&, const tubesheet::SheetMap&,  \
                                           const FieldView&, const StartClickList&, ClickSearch, \
                                           LightLevels&, SheetPose<S>&);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
+TUBESIGHT_INSTANTIATE_CLASS(StartSearch)
 
 }  // namespace tubesight::core::tracking

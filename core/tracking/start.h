@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/image_view.h"
 #include "core/base/reply.h"
@@ -64,5 +66,35 @@ template <Scalar S>
                                           const tubesheet::SheetMap& map, const FieldView& field,
                                           const StartClickList& clicks, ClickSearch search,
                                           LightLevels& light, SheetPose<S>& pose);
+
+/// The clicks of one start in one field, and what either search makes of them: each is done once,
+/// whoever asks. All that it is made of outlives it.
+template <Scalar S>
+class StartSearch {
+ public:
+  StartSearch(const TrackingModel<S>& model, const tubesheet::SheetMap& map, const FieldView& field,
+              const StartClickList& clicks)
+      : model_(&model), map_(&map), field_(&field), clicks_(&clicks) {}
+
+  /// What find_start_pose() finds.
+  struct Found {
+    StartAnswer answer{};
+    SheetPose<S> pose{};      ///< valid when taken
+    LightLevels light{};      ///< the first, and how dark the clicked tube-ends are
+    bool overflowed = false;  ///< a number left its range
+  };
+  [[nodiscard]] const Found& by(ClickSearch search);
+
+  [[nodiscard]] const TrackingModel<S>& model() const { return *model_; }
+  [[nodiscard]] const FieldView& field() const { return *field_; }
+  [[nodiscard]] const StartClickList& clicks() const { return *clicks_; }
+
+ private:
+  const TrackingModel<S>* model_;
+  const tubesheet::SheetMap* map_;
+  const FieldView* field_;
+  const StartClickList* clicks_;
+  std::array<std::optional<Found>, 2> found_{};  ///< by ClickSearch
+};
 
 }  // namespace tubesight::core::tracking

@@ -12,13 +12,8 @@ void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSighti
   judged_ = false;
   observer_.clear_field();
   static_cast<void>(take_overflow_flag());
-  if (clicks_ && takes(*clicks_, field)) {
-    start(field, *clicks_);
-  } else {
-    start_answer_ = clicks_ ? StartRefusal::kElsewhere : start_answer_;
-    if (knows_place()) {
-      follow(field);
-    }
+  if (!starts(field) && knows_place()) {
+    follow(field);
   }
   clicks_.reset();
   if (take_overflow_flag() && state_ != TrackState::kWaiting) {
@@ -32,14 +27,24 @@ void Tracker<S, Margin>::step(const Field& field, Sighting& sighting, TubeSighti
   clock_.see(field);
 }
 
-// Whether the clicks may take the track's place. Where they may not, nothing changes by them.
+// Whether there are clicks, and they take the track's place. Where they may not, nothing changes by
+// them.
 template <Scalar S, typename Margin>
-bool Tracker<S, Margin>::takes(const StartClickList& clicks, const Field& field) const {
-  return confirmed_ || !last_place_.refutes(*model_, *map_, field, clicks);
+bool Tracker<S, Margin>::starts(const Field& field) {
+  if (!clicks_) {
+    return false;
+  }
+  StartSearch<S> search(*model_, *map_, field.pixels, *clicks_);
+  if (!confirmed_ && last_place_.refutes(field, search)) {
+    start_answer_ = StartRefusal::kElsewhere;
+    return false;
+  }
+  start(field, search);
+  return true;
 }
 
 template <Scalar S, typename Margin>
-void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks) {
+void Tracker<S, Margin>::start(const Field& field, StartSearch<S>& search) {
   state_ = TrackState::kWaiting;
   reason_ = Reason::kStartRefused;
   primary_.forget();
@@ -57,7 +62,7 @@ void Tracker<S, Margin>::start(const Field& field, const StartClickList& clicks)
     return;
   }
   Observation<S> seen;
-  start_answer_ = find_confirmed_start<S>(*model_, field.pixels, clicks, observer_, seen);
+  start_answer_ = find_confirmed_start<S>(search, observer_, seen);
   if (!start_answer_.taken()) {
     observer_.clear_field();  // addresses that were refuted are not told
     return;
@@ -92,6 +97,10 @@ void Tracker<S, Margin>::follow(const Field& field) {
   }
   const SheetPose<S> predicted = predict<S>(*model_, good_.pose, good_.tool, motion_, span_s);
   if (field.status != FieldStatus::kGood || shows_old_picture(field)) {
+    if (old_pictures_.stays_old()) {
+      lose(Reason::kCoasted);
+      return;
+    }
     const bool no_field = field.status == FieldStatus::kMissing;
     coast(no_field ? Reason::kNoField : Reason::kDamagedField, predicted);
     return;
@@ -155,7 +164,7 @@ void Tracker<S, Margin>::accept(const Observation<S>& seen, const Field& field) 
   doubt_.agree(seen.fit.used);
   old_pictures_.believe(rest_of<S>(motion_));
   order_.believe(field, seen.tool.local);
-  last_place_.believe(field, seen.pose.anchor, seen.tool.local);
+  last_place_.believe(field, seen.pose.anchor, seen.tool.local, motion_);
   judge(seen);
   primary_.choose<S>(observer_.record().measured, model_->optimum_px);
   reanchor();
@@ -181,15 +190,25 @@ template <Scalar S, typename Margin>
 void Tracker<S, Margin>::remember_sites() {
   const FieldRecord<S>& record = observer_.record();
   for (const auto& tube : record.measured) {
-    sites_.saw_tube_end(tube.address);
+    if (tube.used) {
+      sites_.saw_tube_end(tube.address);
+    } else {
+      sites_.saw_dark(tube.address);  // a rim off the plane: a plug may have one
+    }
   }
-  for (const TubeAddress address : record.sites.dark) {
-    sites_.saw_dark(address);
+  const SiteSightings& sites = record.sites;
+  const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
+  const auto saw_closed = [&](TubeAddress address) {
+    sites_.saw_closed(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+  };
+  for (const TubeAddress address : sites.bright) {
+    saw_closed(address);
   }
-  if (!record.sites.bright.empty()) {
-    const TubeAddress tool = model_->lattice.nearest(good_.pose.anchor, good_.tool.local);
-    for (const TubeAddress address : record.sites.bright) {
-      sites_.saw_bright(address, clear_of_guidetube<S>(*model_, good_.pose, address), tool);
+  for (std::int32_t i = 0; i < sites.dark.size(); ++i) {
+    if (((sites.flat >> static_cast<unsigned>(i)) & 1U) != 0) {
+      saw_closed(sites.dark[i]);
+    } else {
+      sites_.saw_dark(sites.dark[i]);
     }
   }
   sites_.end_field();

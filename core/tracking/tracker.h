@@ -100,8 +100,8 @@ class Tracker {
     return state_ == TrackState::kTracking || state_ == TrackState::kDegraded;
   }
   [[nodiscard]] bool coasts() const;
-  void start(const Field& field, const StartClickList& clicks);
-  [[nodiscard]] bool takes(const StartClickList& clicks, const Field& field) const;
+  [[nodiscard]] bool starts(const Field& field);
+  void start(const Field& field, StartSearch<S>& search);
   void follow(const Field& field);
   void follow_unchecked(const Field& field);  ///< is defined in the self-proof alone
   [[nodiscard]] bool shows_old_picture(const Field& field);

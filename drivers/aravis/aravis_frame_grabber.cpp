@@ -147,8 +147,12 @@ Result<void> AravisFrameGrabber::next_picture(milliseconds timeout) {
   held_ = picture.buffer;
   fields_left_ = fields_a_picture();
   next_ = judge_.first_field(picture);
-  // A packet size that does not come through: pictures begin and none is ever whole.
-  if (!judge_.had_complete() && silence_.past_settling(silence_.last())) {
+  // A packet size that does not come through, from the start or since something on the path is
+  // another: pictures begin and none is ever whole.
+  if (picture.complete) {
+    silence_.whole();
+  }
+  if (silence_.broken_for_long(agreed_.span)) {
     device_->give_back(held_);
     fields_left_ = 0;
     return break_off(AravisTrouble::kIncomplete, Error::kIo);

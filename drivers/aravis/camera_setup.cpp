@@ -79,6 +79,14 @@ Result<void> Setup::picture() {
                       " of its " + std::to_string(sensor.width_px) + " x " +
                       std::to_string(sensor.height_px) + ", expected " + text_of(wanted));
   }
+  // Whoever had it before may have left it mirrored, thinned out, or showing no picture at all.
+  std::string altered;
+  for (const std::string& alteration : device_->alterations()) {
+    altered += (altered.empty() ? "" : ", ") + alteration;
+  }
+  if (!altered.empty()) {
+    return refuse(Error::kUnsupported, "gives no plain pictures: " + altered + ", expected off");
+  }
   agreed_->width_px = wanted.width_px;
   agreed_->height_px = wanted.height_px;
   agreed_->pair = settings_->scan != core::Scan::kProgressive;

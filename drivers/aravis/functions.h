@@ -86,6 +86,7 @@ struct Functions {
       arv_camera_dup_available_pixel_formats_as_strings{
           all, "arv_camera_dup_available_pixel_formats_as_strings"};
   Symbol<decltype(&::arv_camera_get_binning)> arv_camera_get_binning{all, "arv_camera_get_binning"};
+  Symbol<decltype(&::arv_camera_get_boolean)> arv_camera_get_boolean{all, "arv_camera_get_boolean"};
   Symbol<decltype(&::arv_camera_get_device)> arv_camera_get_device{all, "arv_camera_get_device"};
   Symbol<decltype(&::arv_camera_get_device_serial_number)> arv_camera_get_device_serial_number{
       all, "arv_camera_get_device_serial_number"};
@@ -100,6 +101,7 @@ struct Functions {
   Symbol<decltype(&::arv_camera_get_gain)> arv_camera_get_gain{all, "arv_camera_get_gain"};
   Symbol<decltype(&::arv_camera_get_gain_bounds)> arv_camera_get_gain_bounds{
       all, "arv_camera_get_gain_bounds"};
+  Symbol<decltype(&::arv_camera_get_integer)> arv_camera_get_integer{all, "arv_camera_get_integer"};
   Symbol<decltype(&::arv_camera_get_model_name)> arv_camera_get_model_name{
       all, "arv_camera_get_model_name"};
   Symbol<decltype(&::arv_camera_get_payload)> arv_camera_get_payload{all, "arv_camera_get_payload"};
@@ -108,6 +110,7 @@ struct Functions {
   Symbol<decltype(&::arv_camera_get_region)> arv_camera_get_region{all, "arv_camera_get_region"};
   Symbol<decltype(&::arv_camera_get_sensor_size)> arv_camera_get_sensor_size{
       all, "arv_camera_get_sensor_size"};
+  Symbol<decltype(&::arv_camera_get_string)> arv_camera_get_string{all, "arv_camera_get_string"};
   Symbol<decltype(&::arv_camera_get_vendor_name)> arv_camera_get_vendor_name{
       all, "arv_camera_get_vendor_name"};
   Symbol<decltype(&::arv_camera_gv_auto_packet_size)> arv_camera_gv_auto_packet_size{
@@ -124,6 +127,8 @@ struct Functions {
       all, "arv_camera_is_exposure_auto_available"};
   Symbol<decltype(&::arv_camera_is_exposure_time_available)> arv_camera_is_exposure_time_available{
       all, "arv_camera_is_exposure_time_available"};
+  Symbol<decltype(&::arv_camera_is_feature_available)> arv_camera_is_feature_available{
+      all, "arv_camera_is_feature_available"};
   Symbol<decltype(&::arv_camera_is_frame_rate_available)> arv_camera_is_frame_rate_available{
       all, "arv_camera_is_frame_rate_available"};
   Symbol<decltype(&::arv_camera_is_gain_auto_available)> arv_camera_is_gain_auto_available{

@@ -87,6 +87,10 @@ class Device {
   /// The whole sensor, after binning.
   [[nodiscard]] virtual Region sensor() = 0;
 
+  /// What makes its pictures others than those of the lens on the sensor, as its names say it:
+  /// "ReverseX is on". Empty: nothing.
+  [[nodiscard]] virtual std::vector<std::string> alterations() = 0;
+
   [[nodiscard]] virtual bool has(Quantity quantity) = 0;
   /// Switches what is automatic off where there is such a thing.
   virtual void by_hand(Quantity quantity) = 0;

@@ -100,6 +100,37 @@ Region SystemDevice::sensor() {
   return sensor;
 }
 
+// By the names of the GenICam Standard Features Naming Convention; TestImageSelector is that of
+// its first versions.
+std::vector<std::string> SystemDevice::alterations() {
+  std::vector<std::string> found;
+  Refusal refusal(*arv_);
+  const auto has = [&](const char* name) {
+    return arv_->arv_camera_is_feature_available(camera_, name, refusal.out()) != FALSE &&
+           !refusal.said();
+  };
+  for (const char* const name : {"ReverseX", "ReverseY"}) {
+    if (has(name) && arv_->arv_camera_get_boolean(camera_, name, refusal.out()) != FALSE) {
+      found.push_back(std::string(name) + " is on");
+    }
+  }
+  for (const char* const name : {"DecimationHorizontal", "DecimationVertical"}) {
+    const gint64 pixels =
+        has(name) ? arv_->arv_camera_get_integer(camera_, name, refusal.out()) : 1;
+    if (pixels > 1) {
+      found.push_back(std::string(name) + " is " + std::to_string(pixels));
+    }
+  }
+  for (const char* const name : {"TestPattern", "TestImageSelector"}) {
+    const std::string pattern =
+        has(name) ? text_of(arv_->arv_camera_get_string(camera_, name, refusal.out())) : "";
+    if (!pattern.empty() && pattern != "Off") {
+      found.push_back(std::string(name) + " is " + pattern);
+    }
+  }
+  return found;
+}
+
 bool SystemDevice::has(Quantity quantity) {
   Refusal refusal(*arv_);
   gboolean there = FALSE;

@@ -38,6 +38,7 @@ class SystemDevice final : public Device {
   [[nodiscard]] bool set_region(const Region& region, std::string& why) override;
   [[nodiscard]] bool region(Region& region, std::string& why) override;
   [[nodiscard]] Region sensor() override;
+  [[nodiscard]] std::vector<std::string> alterations() override;
   [[nodiscard]] bool has(Quantity quantity) override;
   void by_hand(Quantity quantity) override;
   [[nodiscard]] bool set(Quantity quantity, double value, std::string& why) override;

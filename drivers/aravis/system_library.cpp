@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "drivers/aravis/camera_choice.h"
 #include "drivers/aravis/functions.h"
 #include "drivers/aravis/library.h"
 #include "drivers/aravis/refusal.h"
@@ -103,20 +104,15 @@ Result<ArvCamera*> SystemLibrary::open_address(const std::string& address, std::
 }
 
 Result<ArvCamera*> SystemLibrary::open_serial(const std::string& serial, std::string& why) {
-  arv_->arv_update_device_list();
-  std::string there;
-  std::string id;
-  for (unsigned i = 0; i < arv_->arv_get_n_devices(); ++i) {
-    const std::string number = text_of(arv_->arv_get_device_serial_nbr(i));
-    there += (there.empty() ? "serial:" : ", serial:") + number;
-    if (number == serial) {
-      id = text_of(arv_->arv_get_device_id(i));
-    }
+  std::vector<CameraInfo> cameras;
+  if (!list(cameras, why)) {
+    return Unexpected(Error::kUnsupported);
   }
-  if (id.empty()) {
-    why = "is not there, expected one of: " + (there.empty() ? "no camera answers" : there);
-    return Unexpected(Error::kDisconnected);
+  const auto chosen = choose_by_serial(cameras, serial, why);
+  if (!chosen) {
+    return Unexpected(chosen.error());
   }
+  const std::string id = text_of(arv_->arv_get_device_id(static_cast<unsigned>(*chosen)));
   Refusal refusal(*arv_);
   ArvCamera* const camera = arv_->arv_camera_new(id.c_str(), refusal.out());
   if (camera == nullptr) {

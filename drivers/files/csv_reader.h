@@ -42,6 +42,9 @@ class CsvReader {
   /// The cells of the current line; once the header was read, as many as that has.
   [[nodiscard]] const std::vector<std::string>& cells() const { return cells_; }
 
+  /// How many columns the header has; 0 before it was read.
+  [[nodiscard]] std::size_t columns() const { return header_.size(); }
+
   /// Where the header has the column of that name, from 0; empty when it has none.
   [[nodiscard]] std::optional<std::size_t> find_column(std::string_view name) const;
 

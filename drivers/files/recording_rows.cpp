@@ -11,6 +11,8 @@ namespace tubesight::drivers {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kMillimetre_nm = 1'000'000;
+constexpr std::int64_t kDegree_ndeg = 1'000'000'000;
 
 void append_address(std::string& out, core::TubeAddress address) {
   append_whole(out, address.row);
@@ -35,8 +37,6 @@ void append_pose_result(std::string& out, const core::PoseResult& pose) {
     out += ',';
     append_decimal(out, value, scale, digits);
   };
-  constexpr std::int64_t kMillimetre_nm = 1'000'000;
-  constexpr std::int64_t kDegree_ndeg = 1'000'000'000;
   const auto append_six = [&append](const std::array<std::int64_t, 3>& lengths_nm,
                                     const std::array<std::int64_t, 3>& angles_ndeg) {
     for (const std::int64_t value : lengths_nm) {
@@ -49,6 +49,31 @@ void append_pose_result(std::string& out, const core::PoseResult& pose) {
   append_six(pose.position_nm, pose.angles_ndeg);
   append_six(pose.position_sigma_nm, pose.angle_sigma_ndeg);
   append(pose.offset_nm, 6, kMillimetre_nm);
+}
+
+/// What the robot told of itself with its request: place, angles, joints' angles.
+void append_robot_pose(std::string& out, const core::RobotPose& robot) {
+  const char* comma = "";
+  const auto append = [&](std::int64_t value, std::int32_t digits, std::int64_t scale) {
+    out += comma;
+    comma = ",";
+    append_decimal(out, value, scale, digits);
+  };
+  for (const std::int64_t value : robot.position_nm) {
+    append(value, 6, kMillimetre_nm);
+  }
+  if (robot.turned || robot.joints > 0) {
+    for (const std::int64_t value : robot.angles_ndeg) {
+      if (robot.turned) {
+        append(value, 9, kDegree_ndeg);
+      } else {
+        out += ',';
+      }
+    }
+  }
+  for (std::int32_t i = 0; i < robot.joints; ++i) {
+    append(robot.joints_ndeg[static_cast<std::size_t>(i)], 9, kDegree_ndeg);
+  }
 }
 
 /// How places are written.
@@ -102,7 +127,13 @@ void append_kind_and_values(std::string& out, const core::Event& event, Places p
                                   append_whole(out, lamp.permille);
                                 }
                               },
-                              [&](const core::PoseRequest&) { out += "pose,"; },
+                              [&](const core::PoseRequest& request) {
+                                if (!request.robot) {
+                                  out += "pose,";
+                                  return;
+                                }
+                                quoted("pose", [&] { append_robot_pose(out, *request.robot); });
+                              },
                               [&](const core::Pick& pick) {
                                 quoted("pick", [&] { append_places(out, pick.at_px, places); });
                               },

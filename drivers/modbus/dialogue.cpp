@@ -53,6 +53,58 @@ constexpr std::int32_t kValuesOfTube = 4;  // row, column, u, v
 
 Register start_tube(std::int32_t i) { return after(Register::kStart1Row, i * kValuesOfTube); }
 
+constexpr std::int32_t kFarthestRobot = 100'000 * 10'000;  // mm
+constexpr std::int32_t kLargestTurn = 360 * 100'000;       // degrees
+constexpr std::int32_t kLargestJoint = 720 * 100'000;
+
+bool within(const RegisterImage& image, Register first, std::int32_t values, std::int32_t most) {
+  for (std::int32_t i = 0; i < values; ++i) {
+    const std::int32_t value = image.get(after(first, i));
+    if (value < -most || value > most) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Whether what is told of the robot's own pose is within its limits.
+bool is_robot_sound(const RegisterImage& next) {
+  const std::int32_t told = next.get(Register::kRobotTold);
+  const std::int32_t joints = next.get(Register::kRobotJoints);
+  if (told > kRobotTurned || joints > core::kMaxToldJoints) {
+    return false;
+  }
+  return told == kRobotNothing ||
+         (within(next, Register::kRobotX, 3, kFarthestRobot) &&
+          (told == kRobotPlace || within(next, Register::kRobotAlpha, 3, kLargestTurn)) &&
+          within(next, Register::kRobotJoint1, joints, kLargestJoint));
+}
+
+/// What is told goes with one request: the next one's pose is another.
+core::PoseRequest take_robot_pose(RegisterImage& next) {
+  using enum Register;
+  constexpr std::int64_t kNanometres = 100;      // in 1/10000 mm
+  constexpr std::int64_t kNanodegrees = 10'000;  // in 1/100000 degree
+  core::PoseRequest request;
+  if (const std::int32_t told = next.get(kRobotTold); told != kRobotNothing) {
+    core::RobotPose& robot = request.robot.emplace();
+    robot.turned = told == kRobotTurned;
+    for (std::int32_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      robot.position_nm[at] = kNanometres * next.get(after(kRobotX, i));
+      robot.angles_ndeg[at] = robot.turned ? kNanodegrees * next.get(after(kRobotAlpha, i)) : 0;
+    }
+    robot.joints = next.get(kRobotJoints);
+    for (std::int32_t i = 0; i < robot.joints; ++i) {
+      robot.joints_ndeg[static_cast<std::size_t>(i)] =
+          kNanodegrees * next.get(after(kRobotJoint1, i));
+    }
+  }
+  next.set(kRobotTold, kRobotNothing);
+  next.set(kRobotJoints, 0);
+  return request;
+}
+
 bool has(std::int32_t bits, CommandBit command) { return (bits & bit_of(command)) != 0; }
 
 /// Whether what the commands that begin are given is within its limits.
@@ -121,6 +173,10 @@ void Dialogue::read(std::int32_t first, FieldTime now, std::span<std::uint16_t> 
     encode_verdict(now);
   } else if (block->name == Block::kHealth) {
     encode_health(*state_, image_);
+  } else if (block->name == Block::kZone) {
+    encode_zone(state_->identity.zones,
+                {image_.get(Register::kZoneTubeRow), image_.get(Register::kZoneTubeColumn)},
+                image_);
   }
   for (std::size_t i = 0; i < words.size(); ++i) {
     words[i] = image_.word(first + static_cast<std::int32_t>(i));
@@ -137,14 +193,22 @@ Refusal Dialogue::write(std::int32_t first, std::span<const std::uint16_t> words
   for (std::size_t i = 0; i < words.size(); ++i) {
     next.set_word(first + static_cast<std::int32_t>(i), words[i]);
   }
-  const Refusal refusal =
-      block->name == Block::kClaim ? take_claim(next, arrival) : take_commands(next, arrival);
+  const Refusal refusal = take(block->name, next, arrival);
   if (refusal == Refusal::kNone) {
     image_ = next;
   } else if (refusal == Refusal::kBusy) {
     ++state_->counters.dropped_events;
   }
   return refusal;
+}
+
+Refusal Dialogue::take(Block block, RegisterImage& next, FieldTime arrival) {
+  switch (block) {
+    case Block::kClaim: return take_claim(next, arrival);
+    case Block::kZoneTube: return Refusal::kNone;  // any tube may be asked for
+    case Block::kRobot: return is_robot_sound(next) ? Refusal::kNone : Refusal::kIllegalValue;
+    default: return take_commands(next, arrival);
+  }
 }
 
 Refusal Dialogue::take_claim(RegisterImage& next, FieldTime arrival) {
@@ -222,7 +286,7 @@ void Dialogue::begin(CommandBit command, RegisterImage& next, FieldTime arrival)
       break;
     case CommandBit::kPose:
       next.set(kPoseId, id);
-      ticket = outbox_.send(core::PoseRequest{}, id, arrival);
+      ticket = outbox_.send(take_robot_pose(next), id, arrival);
       break;
     case CommandBit::kAcknowledge:
       claim_ = {};

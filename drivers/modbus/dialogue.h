@@ -81,6 +81,7 @@ class Dialogue {
     std::int32_t reason = 0;
   };
 
+  [[nodiscard]] Refusal take(Block block, RegisterImage& next, core::FieldTime arrival);
   [[nodiscard]] Refusal take_claim(RegisterImage& next, core::FieldTime arrival);
   [[nodiscard]] Refusal take_commands(RegisterImage& next, core::FieldTime arrival);
   void begin(CommandBit command, RegisterImage& next, core::FieldTime arrival);

@@ -52,7 +52,7 @@ class Validity {
 };
 
 /// Bits of a block whose groups have no names of their own are counted.
-enum class Bit : std::uint8_t { k0, k1, k2, k3, k4 };
+enum class Bit : std::uint8_t { k0, k1, k2, k3, k4, k5 };
 
 void encode_place(const Sighting& s, bool current, Validity& valid) {
   using enum Register;
@@ -160,6 +160,9 @@ void encode_health(const LinkState& state, RegisterImage& image) {
   valid.value(kFieldsMissing, health.fields_missing >= 0, health.fields_missing & INT32_MAX);
   valid.value(kFieldsLate, health.fields_late >= 0, health.fields_late & INT32_MAX);
   valid.bit(Bit::k4);
+  valid.value(kPairsWritten, health.pairs_written >= 0, health.pairs_written & INT32_MAX);
+  valid.value(kPairsLost, health.pairs_lost >= 0, health.pairs_lost & INT32_MAX);
+  valid.bit(Bit::k5);
   image.set(kHealthValid, valid.bits());
 
   const LinkCounters& counters = state.counters;
@@ -212,6 +215,23 @@ void encode_sighting(const LinkState& state, FieldTime now, RegisterImage& image
   image.set(kJudgedFields, s.judged_fields);
   image.set(kSequence, state.sequence);
   image.set(kSequenceAgain, state.sequence);
+}
+
+void encode_zone(const ZoneCorrections* zones, core::TubeAddress tube, RegisterImage& image) {
+  using enum Register;
+  ZoneAnswer answer;
+  const bool known = zones != nullptr && zones->at(tube, answer);
+  Validity valid(image);
+  valid.value(kZoneX, known, answer.off_nm[0], kNanometres);
+  valid.value(kZoneY, known, answer.off_nm[1], kNanometres);
+  valid.value(kZoneZ, known, answer.off_nm[2], kNanometres);
+  valid.value(kZoneSigmaAcross, known, answer.across_nm, kNanometres);
+  valid.value(kZoneSigmaAlong, known, answer.along_nm, kNanometres);
+  valid.bit(Bit::k0);
+  image.set(kZoneValid, valid.bits());
+  image.set(kZoneReserved, 0);
+  image.set(kZoneRow, tube.row);
+  image.set(kZoneColumn, tube.column);
 }
 
 void clear_pose(RegisterImage& image) {

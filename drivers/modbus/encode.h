@@ -4,6 +4,7 @@
 #include "core/base/reply.h"
 #include "drivers/modbus/link_state.h"
 #include "drivers/modbus/register_image.h"
+#include "drivers/modbus/zone_corrections.h"
 
 namespace tubesight::drivers {
 
@@ -19,6 +20,9 @@ void encode_health(const LinkState& state, RegisterImage& image);
 
 /// The block sighting, as it is to be read at `now`.
 void encode_sighting(const LinkState& state, core::FieldTime now, RegisterImage& image);
+
+/// The block zone: the correction at a tube.
+void encode_zone(const ZoneCorrections* zones, core::TubeAddress tube, RegisterImage& image);
 
 /// What became of a pose request. `seen` is the sighting that the verdict speaks of, for the
 /// correction; null: there is none.

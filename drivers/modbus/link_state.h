@@ -6,6 +6,7 @@
 
 #include "core/base/field.h"
 #include "core/base/sighting.h"
+#include "drivers/modbus/zone_corrections.h"
 
 namespace tubesight::drivers {
 
@@ -20,6 +21,8 @@ struct LinkIdentity {
   /// Of the settings: a start over the link that names others is refused.
   std::array<std::int32_t, 4> window_px{};
   std::array<double, 2> optimum_px{};
+  /// Who knows the corrections by zones, and outlives the link; null: nobody.
+  const ZoneCorrections* zones = nullptr;
 };
 
 enum class Health : std::uint8_t { kUnknown, kWell, kFailed };
@@ -34,6 +37,8 @@ struct LinkHealth {
   std::int64_t fields = -1;         ///< counters of the box; below 0: not known
   std::int64_t fields_missing = -1;
   std::int64_t fields_late = -1;
+  std::int64_t pairs_written = -1;  ///< below 0: the box keeps none
+  std::int64_t pairs_lost = -1;
 };
 
 /// What has come over the line so far, and how long the box took.

@@ -64,6 +64,11 @@ inline constexpr std::int32_t kResultRefused = 2;
 inline constexpr std::int32_t kLampCommanded = 1;
 inline constexpr std::int32_t kLampAutomatic = 2;
 
+/// The register robot_told.
+inline constexpr std::int32_t kRobotNothing = 0;
+inline constexpr std::int32_t kRobotPlace = 1;
+inline constexpr std::int32_t kRobotTurned = 2;
+
 /// The register pose_result.
 [[nodiscard]] constexpr std::int32_t code_of(core::PoseVerdict verdict) {
   return static_cast<std::int32_t>(verdict) + 1;

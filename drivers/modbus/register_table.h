@@ -160,6 +160,38 @@ enum class Register : std::uint8_t {
   kResponseLast,
   kResponseWorst,
   kClaimResponseWorst,
+  kPairsWritten,
+  kPairsLost,
+  // robot
+  kRobotTold,
+  kRobotJoints,
+  kRobotX,
+  kRobotY,
+  kRobotZ,
+  kRobotAlpha,
+  kRobotBeta,
+  kRobotGamma,
+  kRobotJoint1,
+  kRobotJoint2,
+  kRobotJoint3,
+  kRobotJoint4,
+  kRobotJoint5,
+  kRobotJoint6,
+  kRobotJoint7,
+  kRobotJoint8,
+  // zone_tube
+  kZoneTubeRow,
+  kZoneTubeColumn,
+  // zone
+  kZoneValid,
+  kZoneReserved,
+  kZoneRow,
+  kZoneColumn,
+  kZoneX,
+  kZoneY,
+  kZoneZ,
+  kZoneSigmaAcross,
+  kZoneSigmaAlong,
   kCount,
 };
 
@@ -172,6 +204,9 @@ enum class Block : std::uint8_t {
   kCommand,
   kResult,
   kHealth,
+  kRobot,
+  kZoneTube,
+  kZone,
 };
 
 /// Where a value stands and what its number means.
@@ -198,7 +233,7 @@ struct RegisterBlock {
 };
 
 /// Words of the whole map, those between its blocks among them.
-inline constexpr std::int32_t kMapWords = 542;
+inline constexpr std::int32_t kMapWords = 666;
 
 /// What the map says where a value is not known; its validity bit is off as well.
 inline constexpr std::int32_t kUnknown = INT32_MIN;

@@ -1,5 +1,6 @@
 #include "drivers/replay/replay_events.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -21,6 +22,9 @@ using core::Result;
 using core::Unexpected;
 
 static_assert(core::kMaxStartPoints == 8);
+
+constexpr std::int32_t kNanometres = 6;   // decimals of a millimetre
+constexpr std::int32_t kNanodegrees = 9;  // decimals of a degree
 
 /// Cuts the text before the first `separator` off the front.
 std::string_view cut(std::string_view& rest, char separator) {
@@ -87,8 +91,6 @@ bool parse_pose_result(std::string_view text, core::PoseResult& pose) {
   if (parse_pose_reason(text, pose.reason)) {
     return true;
   }
-  constexpr std::int32_t kNanometres = 6;   // decimals of a millimetre
-  constexpr std::int32_t kNanodegrees = 9;  // decimals of a degree
   std::array<std::string_view, 16> parts;
   if (!split(text, ',', parts) || !parse_whole(parts[0], pose.tubes) ||
       !parse_whole(parts[1], pose.nearest.row) || !parse_whole(parts[2], pose.nearest.column) ||
@@ -135,9 +137,36 @@ bool parse_pick(std::string_view text, Event& event) {
   return good;
 }
 
+/// Three lengths, then nothing or three angles (empty where the robot told none), then the angles
+/// of as many joints as it told.
+bool parse_robot_pose(std::string_view text, core::RobotPose& robot) {
+  std::array<std::string_view, 6 + core::kMaxToldJoints> parts;
+  const auto count = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
+  if ((count != 3 && count < 6) || count > parts.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    parts[i] = cut(text, ',');
+  }
+  robot.turned = !parts[3].empty();
+  robot.joints = static_cast<std::int32_t>(std::max<std::size_t>(count, 6) - 6);
+  bool good = robot.turned || robot.joints > 0 || count == 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    good = good && parse_decimal(parts[i], kNanometres, robot.position_nm[i]) &&
+           (robot.turned ? parse_decimal(parts[3 + i], kNanodegrees, robot.angles_ndeg[i])
+                         : parts[3 + i].empty());
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.joints); ++i) {
+    good = good && parse_decimal(parts[6 + i], kNanodegrees, robot.joints_ndeg[i]);
+  }
+  return good;
+}
+
 bool parse_pose_request(std::string_view text, Event& event) {
-  event.content = core::PoseRequest{};
-  return text.empty();
+  core::PoseRequest request;
+  const bool good = text.empty() || parse_robot_pose(text, request.robot.emplace());
+  event.content = request;
+  return good;
 }
 
 bool parse_acknowledge(std::string_view text, Event& event) {
@@ -163,7 +192,8 @@ constexpr std::array kKinds = {
     Kind{"claim", "R,C (row and column)", parse_claim},
     Kind{"start", "3 to 8 clicks R,C,U,V separated by ';'", parse_start},
     Kind{"lamp", "a level from 0 to 1000", parse_lamp},
-    Kind{"pose", "nothing", parse_pose_request},
+    Kind{"pose", "nothing, or the robot's own X,Y,Z[,ALPHA,BETA,GAMMA[,JOINT...]] (mm, deg)",
+         parse_pose_request},
     Kind{"pick", "U,V (pixels)", parse_pick},
     Kind{"acknowledge", "nothing", parse_acknowledge},
     Kind{"pose-result",

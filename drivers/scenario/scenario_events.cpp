@@ -9,11 +9,30 @@
 #include "drivers/scenario/scenario_keys.h"
 #include "drivers/settings/read_table.h"
 #include "drivers/settings/session_checks.h"
+#include "drivers/settings/session_keys.h"
+#include "drivers/settings/session_tables.h"
+#include "drivers/settings/session_text.h"
 
 namespace tubesight::drivers {
 namespace {
 
 using drivers::TableReader;
+
+// With clicks, or a wish for some.
+core::Start read_clicked_start(TableReader& table, const core::SessionSettings& told, double at_s,
+                               ScenarioEvents& to) {
+  if (table.has(drivers::kClicksKey)) {
+    core::StartSettings start;
+    drivers::read_clicks(table, {&told.camera, &told.tubesheet}, 3, start);
+    return {start.tubes, {}, false};
+  }
+  ClickWish wish;
+  wish.at_s = at_s;
+  wish.event = static_cast<std::ptrdiff_t>(to.events->size());
+  read_click_wish(table, told.tubesheet, wish);
+  to.wishes->push_back(wish);
+  return {};
+}
 
 void read_event(TableReader& table, const core::SessionSettings& told, double length_s,
                 ScenarioEvents& to) {
@@ -24,8 +43,8 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
     table.complain(kEventTime.key, "after the recording's end, expected within it");
   }
   if (!table.word(kEventKindKey, kEventWords, kind)) {
-    for (const std::string_view key :
-         {kClaimedTubeKey, kLampCommandKey.key, kPickPlaceKey.key, kClickOnKey, kOffCenterKey}) {
+    for (const std::string_view key : {kClaimedTubeKey, kLampCommandKey.key, kPickPlaceKey.key,
+                                       drivers::kClicksKey, kClickOnKey, kOffCenterKey}) {
       table.ignore(key);
     }
     return;
@@ -56,16 +75,10 @@ void read_event(TableReader& table, const core::SessionSettings& told, double le
       event.content = pick;
       break;
     }
-    case ToldKind::kStart: {
-      ClickWish wish;
-      wish.at_s = told_event.at_s;
-      wish.event = static_cast<std::ptrdiff_t>(to.events->size());
-      read_click_wish(table, told.tubesheet, wish);
-      to.wishes->push_back(wish);
+    case ToldKind::kStart:
       event.origin = core::EventOrigin::kOperator;
-      event.content = core::Start{};
+      event.content = read_clicked_start(table, told, told_event.at_s, to);
       break;
-    }
     case ToldKind::kPose: event.content = core::PoseRequest{}; break;
     case ToldKind::kAcknowledge:
       event.origin = core::EventOrigin::kOperator;
@@ -107,7 +120,10 @@ void write_event(drivers::TomlWriter& toml, const drivers::ScenarioEvent& told) 
                  },
                  [&](const core::PoseRequest& /*request*/) { begin(ToldKind::kPose); },
                  [&](const core::Acknowledge& /*seen*/) { begin(ToldKind::kAcknowledge); },
-                 [&](const core::Start& start) { never(start); },
+                 [&](const core::Start& start) {
+                   begin(ToldKind::kStart);
+                   drivers::write_clicks(toml, start.tubes);
+                 },
                  [&](const core::PoseResult& result) { never(result); },
              },
              told.event.content);

@@ -22,8 +22,7 @@ struct ScenarioEvents {
 void read_events(drivers::SettingsDocument& document, const core::SessionSettings& told,
                  double length_s, ScenarioEvents to);
 
-/// Writes an event as an `[[event]]`, which reads back as it was. Not starts: the clicks of an
-/// `[[event]]` are made of the truth when it is read.
+/// Writes an event as an `[[event]]`, which reads back as it was.
 void write_event(drivers::TomlWriter& toml, const drivers::ScenarioEvent& told);
 
 }  // namespace tubesight::drivers

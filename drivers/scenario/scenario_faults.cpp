@@ -44,8 +44,20 @@ void for_each_parameter(FaultKind kind, Visit visit) {
   using Switch = SwitchKey<Fault>;
   switch (kind) {
     case FaultKind::kTorn:
+    case FaultKind::kBlots:
+    case FaultKind::kReflections:
+    case FaultKind::kGhost:
     case FaultKind::kSaltPepper: visit(Number{"share", kShare, &Fault::share}); break;
     case FaultKind::kBlack: visit(Number{"level", kGrey, &Fault::level}); break;
+    case FaultKind::kBlackLevel:
+      visit(Number{"level", kGrey, &Fault::level});
+      visit(Number{"share", kShare, &Fault::share});
+      break;
+    case FaultKind::kCovered:
+      visit(Number{"level", kGrey, &Fault::level});
+      visit(Number{"share", kShare, &Fault::share});
+      visit(Switch{"left", &Fault::told});
+      break;
     case FaultKind::kLampOut:
     case FaultKind::kLampDrift: visit(Number{"level", kShare, &Fault::level}); break;
     case FaultKind::kSignalLoss: visit(Switch{"damaged", &Fault::told}); break;
@@ -151,6 +163,15 @@ Fault usual(FaultKind kind) {
     case FaultKind::kHeld: fault.share = 1.0; break;
     case FaultKind::kCompressed: fault.amplitude = 4.0; break;
     case FaultKind::kJitter: fault.waver_ms = 5.0; break;
+    case FaultKind::kBlots:
+    case FaultKind::kReflections: fault.share = 0.05; break;
+    case FaultKind::kGhost: fault.share = 0.3; break;
+    case FaultKind::kBlackLevel: fault.level = 64.0; break;
+    case FaultKind::kCovered:
+      fault.share = 0.3;
+      fault.level = 150.0;
+      fault.told = false;
+      break;
     default: break;
   }
   return fault;

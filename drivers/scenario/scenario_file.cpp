@@ -147,7 +147,7 @@ void ScenarioReading::read_start(TableReader& table) {
                                       sheet_ ? &told.tubesheet : nullptr};
   drivers::read_start_window(table, context, told.start);
   if (table.has(drivers::kClicksKey)) {
-    drivers::read_clicks(table, context, told.start);
+    drivers::read_clicks(table, context, 3, told.start);
     for (const std::string_view key : {kClickOnKey, kOffCenterKey}) {
       if (table.has(key)) {
         table.complain(key, "tubes are given as well, expected one of them");

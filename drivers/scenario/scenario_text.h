@@ -15,8 +15,8 @@ namespace tubesight::drivers {
 /// right to the last bit but one. The wishes that a file may hold have become what they ask for:
 /// tours, scatter and claims of steps are moves and events, `click_on` is clicks.
 ///
-/// Not every scenario has a file: none with a robot, a start among its events, a kJump segment or
-/// without clicks is to be given.
+/// Not every scenario has a file: none with a robot, a kJump segment or without clicks is to be
+/// given.
 [[nodiscard]] std::string scenario_text(const drivers::Scenario& scenario, const std::string& title,
                                         const Expectation* expect = nullptr);
 

@@ -127,6 +127,8 @@ inline constexpr WholesKey<core::StartSettings, 4> kStartWindowKey{
 inline constexpr NumbersKey<core::StartSettings, 2> kStartOptimumKey{
     "optimum_px", kPicturePlace, &core::StartSettings::optimum_px};
 
+inline constexpr std::string_view kStartHeadingKey = "heading_deg";
+
 /// `[motion]`
 inline constexpr std::array kMotionKeys = {
     NumberKey<core::MotionSettings>{

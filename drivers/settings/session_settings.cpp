@@ -26,8 +26,10 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
                  [&](TableReader& table) { read_tubesheet(table, to.tubesheet); });
   // What relates the start to other tables can be judged only when these are sound.
   const StartContext context{camera ? &to.camera : nullptr, tubesheet ? &to.tubesheet : nullptr};
-  read_table(document, "start", needed.start,
-             [&](TableReader& table) { read_start(table, context, to.start); });
+  read_table(document, "start", needed.start, [&](TableReader& table) {
+    read_start(table, context, needed.few_clicks ? 0 : 3, to.start);
+    read_heading(table, session.heading_deg);
+  });
   read_table(document, "motion", false, [&](TableReader& table) { read_motion(table, to.motion); });
   read_table(document, "edges", false, [&](TableReader& table) { read_edges(table, to.edges); });
   read_table(document, "verification", false,
@@ -39,6 +41,8 @@ void read_all(SettingsDocument& document, NeededTables needed, SessionFile& sess
   read_table(document, "base", false, [&](TableReader& table) { read_base(table); });
   read_table(document, "base_quality", false,
              [&](TableReader& table) { read_quality(table, session.base_quality); });
+  read_table(document, "silhouette", false,
+             [&](TableReader& table) { read_silhouette(table, session.silhouette); });
 }
 
 }  // namespace
@@ -50,12 +54,14 @@ void read_session(SettingsDocument& document, NeededTables needed, SessionFile& 
   session.settings.tubesheet.missing.clear();
   session.settings.tubesheet.plugged.clear();
   session.settings.start = {};
+  session.heading_deg.reset();
   session.settings.motion = {};
   session.settings.edges = {};
   session.settings.verification = {};
   session.camera_quality = {};
   session.tool_quality = {};
   session.base_quality = {};
+  session.silhouette = {};
   read_all(document, needed, session);
   session.has_tool = document.find("tool") != nullptr;
   session.has_start = document.find("start") != nullptr;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 #include "drivers/files/messages.h"
 #include "drivers/settings/session_tables.h"
 #include "drivers/settings/settings_document.h"
+#include "drivers/settings/silhouette_settings.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::drivers {
@@ -19,12 +21,14 @@ struct NeededTables {
   bool tool = false;
   bool tubesheet = false;
   bool start = false;
+  /// Fewer clicks than three will do, or none: the lattice is found cold, or nothing is named yet.
+  bool few_clicks = false;
 };
 
 /// `replay`: all four.
-inline constexpr NeededTables kReplayNeeds{true, true, true, true};
+inline constexpr NeededTables kReplayNeeds{true, true, true, true, true};
 /// `pose`: the tool only for the tool's cells, the start may come from the command line.
-inline constexpr NeededTables kPoseNeeds{true, false, true, false};
+inline constexpr NeededTables kPoseNeeds{true, false, true, false, true};
 /// `calibrate tool`: the tool is what it finds.
 inline constexpr NeededTables kCalibrateToolNeeds{true, false, true, false};
 
@@ -33,15 +37,18 @@ struct SessionFile {
   core::SessionSettings settings;
   bool has_tool = false;
   bool has_start = false;  ///< without it the window is the whole picture
+  /// `heading_deg` of the start: the tool's on the sheet, good to 20 degrees.
+  std::optional<double> heading_deg;
   CalibrationQuality camera_quality;
   CalibrationQuality tool_quality;
   CalibrationQuality base_quality;
+  SilhouetteSettings silhouette;  ///< of the guidetube; kept for whoever watches it
 };
 
 /// The tables of a session.
-inline constexpr std::array<std::string_view, 11> kSessionTables = {
-    "camera", "camera_quality", "tool",         "tool_quality", "tubesheet",   "start",
-    "motion", "edges",          "verification", "base",         "base_quality"};
+inline constexpr std::array<std::string_view, 12> kSessionTables = {
+    "camera", "camera_quality", "tool",         "tool_quality", "tubesheet",    "start",
+    "motion", "edges",          "verification", "base",         "base_quality", "silhouette"};
 
 /// Reads the session's tables of a document that may have others, too; mistakes go to its problems.
 /// Everything in `session` is replaced.

@@ -92,8 +92,8 @@ void read_click(TableReader& table, std::size_t index, const toml::node& entry,
     return;
   }
   const std::size_t before = table.problems().size();
-  TableReader reader(*click, table.place_of(entry), "start.tubes[" + std::to_string(index) + "]",
-                     table.problems());
+  TableReader reader(*click, table.place_of(entry),
+                     table.name() + ".tubes[" + std::to_string(index) + "]", table.problems());
   core::StartPoint point;
   const core::CameraSettings* const camera = context.camera;
   const double most =
@@ -177,15 +177,18 @@ void read_tubesheet(TableReader& table, core::TubesheetSettings& tubesheet) {
   }
 }
 
-void read_clicks(TableReader& table, const StartContext& context, core::StartSettings& start) {
-  constexpr const char* kExpected = "at least 3 times { row = R, column = C, at_px = [U, V] }";
-  const toml::array* const entries = table.list(kClicksKey, true, kExpected);
+void read_clicks(TableReader& table, const StartContext& context, std::size_t least,
+                 core::StartSettings& start) {
+  const std::string expected =
+      (least > 0 ? "at least " + std::to_string(least) + " times" : "a list of") +
+      " { row = R, column = C, at_px = [U, V] }";
+  const toml::array* const entries = table.list(kClicksKey, least > 0, expected.c_str());
   if (entries == nullptr) {
     return;
   }
   const std::size_t before = table.problems().size();
-  if (entries->size() < 3) {
-    table.complain(kClicksKey, describe(*entries) + ", expected " + kExpected);
+  if (entries->size() < least) {
+    table.complain(kClicksKey, describe(*entries) + ", expected " + expected);
   }
   for (std::size_t i = 0; i < entries->size() && i <= core::kMaxStartPoints; ++i) {
     read_click(table, i, (*entries)[i], context, start);
@@ -198,8 +201,9 @@ void read_clicks(TableReader& table, const StartContext& context, core::StartSet
   }
 }
 
-void read_start(TableReader& table, const StartContext& context, core::StartSettings& start) {
-  read_clicks(table, context, start);
+void read_start(TableReader& table, const StartContext& context, std::size_t least,
+                core::StartSettings& start) {
+  read_clicks(table, context, least, start);
   read_start_window(table, context, start);
 }
 
@@ -223,6 +227,14 @@ void read_start_window(TableReader& table, const StartContext& context,
       (u < left || u > right || v < top || v > bottom)) {
     table.complain(kStartOptimumKey.key,
                    point_text(start.optimum_px) + ", expected a place in window_px");
+  }
+}
+
+void read_heading(TableReader& table, std::optional<double>& heading_deg) {
+  heading_deg.reset();
+  double value = 0.0;
+  if (table.optional_number(kStartHeadingKey, kAngle, value) && table.has(kStartHeadingKey)) {
+    heading_deg = value;
   }
 }
 
@@ -263,6 +275,11 @@ void read_quality(TableReader& table, CalibrationQuality& quality) {
   }
   if (table.has("correlation")) {
     take_matrix(table.list("correlation", false, "a list of lists"), quality.correlation);
+  }
+  quality.focal_length_correlation = {};
+  if (!take_numbers(table.list("focal_length_correlation", false, "a list of numbers"),
+                    quality.focal_length_correlation)) {
+    quality.focal_length_correlation = {};
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "core/base/settings.h"
@@ -25,11 +27,16 @@ struct StartContext {
   const core::TubesheetSettings* tubesheet = nullptr;
 };
 
-/// `[start]`: clicks, window, optimum.
-void read_start(TableReader& table, const StartContext& context, core::StartSettings& start);
+/// `[start]`: clicks, of which there must be `least`, 3 or 0; window, optimum.
+void read_start(TableReader& table, const StartContext& context, std::size_t least,
+                core::StartSettings& start);
 /// Its two halves: `tubes`; `window_px` and `optimum_px`.
-void read_clicks(TableReader& table, const StartContext& context, core::StartSettings& start);
+void read_clicks(TableReader& table, const StartContext& context, std::size_t least,
+                 core::StartSettings& start);
 void read_start_window(TableReader& table, const StartContext& context, core::StartSettings& start);
+
+/// `heading_deg` of `[start]`, which may be left out.
+void read_heading(TableReader& table, std::optional<double>& heading_deg);
 
 /// `[motion]`, `[edges]`, `[verification]`: every key may be left out.
 void read_motion(TableReader& table, core::MotionSettings& motion);
@@ -48,6 +55,8 @@ struct CalibrationQuality {
   std::array<double, 6> sigma{};
   /// Row by row; the identity unless `correlation` is there as six lists of six numbers.
   std::array<double, 36> correlation{};
+  /// Of a tool whose docking told the camera's EFL, too: of its six values with that; else 0.
+  std::array<double, 6> focal_length_correlation{};
 };
 
 /// Which camera it was: `serial` and `model`, where they stand.

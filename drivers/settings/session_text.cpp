@@ -26,16 +26,20 @@ void write_plant(TomlWriter& toml, const core::SessionSettings& settings) {
   }
 }
 
-void write_start(TomlWriter& toml, const core::StartSettings& start) {
+void write_clicks(TomlWriter& toml, const decltype(core::StartSettings::tubes)& tubes) {
   std::vector<std::string> clicks;
-  for (const core::StartPoint& point : start.tubes) {
+  for (const core::StartPoint& point : tubes) {
     TomlWriter click(toml.manner());
     write_keys(click, kAddressKeys, point.address);
     click.numbers(kClickPlaceKey, point.at_px);
     clicks.push_back(click.take_inline());
   }
-  toml.table("start");
   toml.inline_tables(kClicksKey, clicks);
+}
+
+void write_start(TomlWriter& toml, const core::StartSettings& start) {
+  toml.table("start");
+  write_clicks(toml, start.tubes);
   write_key(toml, kStartWindowKey, start);
   write_key(toml, kStartOptimumKey, start);
 }

@@ -19,6 +19,8 @@ void write_plant(TomlWriter& toml, const core::SessionSettings& settings);
 
 /// `[start]` with the clicks given.
 void write_start(TomlWriter& toml, const core::StartSettings& start);
+/// `tubes` of a start.
+void write_clicks(TomlWriter& toml, const decltype(core::StartSettings::tubes)& tubes);
 
 /// `[motion]`, `[edges]` and `[verification]`: what the box goes by.
 void write_limits(TomlWriter& toml, const core::SessionSettings& settings);

@@ -20,6 +20,7 @@ constexpr std::array<std::string_view, 2> kDotWords = {"bright", "dark"};
 constexpr WholeRange kDots{2, 64};
 constexpr NumberRange kSpacing{0.05, 1000.0, " mm"};
 constexpr NumberRange kDot{0.0, 1000.0, " mm"};
+constexpr NumberRange kLens{0.1, 1000.0, " mm"};
 constexpr NumberRange kHeight{-10000.0, 10000.0, " mm"};
 
 /// Of `[camera]` what is known before a calibration.
@@ -35,6 +36,7 @@ constexpr std::tuple kSizeKeys{
     NumberKey<TargetSettings>{"spacing_mm", kSpacing, &TargetSettings::spacing_mm, Need::kNeeded},
     NumberKey<TargetSettings>{"row_spacing_mm", kSpacing, &TargetSettings::row_spacing_mm},
     NumberKey<TargetSettings>{"dot_mm", kDot, &TargetSettings::dot_mm, Need::kNeeded},
+    NumberKey<TargetSettings>{"lens_mm", kLens, &TargetSettings::lens_mm, Need::kOptional, 0.0},
 };
 
 void read_camera_sensor(TableReader& table, core::CameraSettings& camera) {
@@ -124,6 +126,28 @@ core::Result<void> load_target(TextFiles& files, const std::string& path, Target
         {{}, "view: the tables are missing, expected a [[view]] for each height or pose"});
   }
   return document.report(messages);
+}
+
+std::string target_text(const TargetFile& file, const std::vector<std::string>& points) {
+  TomlWriter toml(TomlManner::kShort);
+  toml.table("camera");
+  write_keys(toml, kSensorKeys, file.camera);
+  if (!file.device.serial.empty() || !file.device.model.empty()) {
+    toml.table("camera_quality");
+    toml.text("serial", file.device.serial);
+    toml.text("model", file.device.model);
+  }
+  toml.table("target");
+  write_keys(toml, kSizeKeys, file.target);
+  toml.text("dots", kDotWords[file.target.bright ? 0 : 1]);
+  for (std::size_t i = 0; i < file.views.size(); ++i) {
+    toml.entry("view");
+    toml.text("points", points[i]);
+    if (file.views[i].staged) {
+      toml.number("height_mm", file.views[i].height_mm);
+    }
+  }
+  return toml.take();
 }
 
 }  // namespace tubesight::drivers

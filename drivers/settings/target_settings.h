@@ -24,6 +24,7 @@ struct TargetSettings {
   double row_spacing_mm = 0.0;  ///< between lines; as read never 0
   double dot_mm = 0.0;          ///< diameter; 0: points without one
   bool bright = true;           ///< bright on dark
+  double lens_mm = 0.0;         ///< EFL by the lens' data sheet; 0: not said
 };
 
 /// A view of it; a table of `[[view]]`. Either images or a points file.
@@ -47,5 +48,10 @@ struct TargetFile {
                                              Messages& messages);
 [[nodiscard]] core::Result<void> load_target(TextFiles& files, const std::string& path,
                                              TargetFile& file, Messages& messages);
+
+/// A target's file whose views read points in place of pictures: the names of the points files as
+/// they stand beside it, one a view.
+[[nodiscard]] std::string target_text(const TargetFile& file,
+                                      const std::vector<std::string>& points);
 
 }  // namespace tubesight::drivers

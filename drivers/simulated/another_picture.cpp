@@ -8,7 +8,7 @@
 namespace tubesight::drivers {
 
 void AnotherPicture::show(const core::Field& field, const FieldFaults& faults,
-                          const core::TubesheetSettings& sheet, double following,
+                          const core::TubesheetSettings& sheet, const AnotherLamp& lamp,
                           std::uint64_t seed, core::rendering::Exposure& exposure) {
   std::optional<core::rendering::Exposure>& held = held_[static_cast<std::size_t>(field.parity)];
   if (!faults.frozen && !faults.other_camera) {
@@ -31,8 +31,8 @@ void AnotherPicture::show(const core::Field& field, const FieldFaults& faults,
     constexpr std::int64_t kChip_ns = 50'000'000;
     const std::int64_t chip = (field.mid_exposure.count() + kChip_ns / 3) / kChip_ns;
     Dice dice(derived_seed(seed ^ 0x07E2'CA4EU, static_cast<std::uint64_t>(chip)));
-    const double swing = dice.share() < 0.5 ? -0.01 : 0.01;
-    swing_ += (swing - swing_) * following;
+    const double swing = dice.share() < 0.5 ? -lamp.swing : lamp.swing;
+    swing_ += (swing - swing_) * lamp.following;
     exposure.lamp *= 1.0 + swing_;
   }
 }

@@ -32,15 +32,21 @@ enum class FaultKind : std::uint8_t {
   kHeld,         ///< a frame store hangs, bit for bit: a share of the columns, under line noise
   kCompressed,   ///< squares that hardly change come again, the others are coarse
   kJitter,       ///< the fields' stamps waver, their numbers do not
+  kBlots,        ///< dark drops and dirt
+  kReflections,  ///< bright spots of a lamp
+  kGhost,        ///< the picture a second time beside itself
+  kBlackLevel,   ///< less contrast on a raised black
+  kCovered,      ///< the lowest or the left part is one grey value
 };
-inline constexpr std::int32_t kFaultKinds = 23;
+inline constexpr std::int32_t kFaultKinds = 28;
 
 /// The word of a kind in files: `dropped`, `signal-loss` ...; the order is that of the kinds.
 inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
-    "dropped",     "repeated",  "torn",     "swapped",     "black",      "saturated",
-    "signal-loss", "knock",     "lamp-out", "lamps-dead",  "lamp-drift", "vibration",
-    "cut",         "jump",      "emi",      "salt-pepper", "frozen",     "other-camera",
-    "skip",        "pose-step", "held",     "compressed",  "jitter"};
+    "dropped",     "repeated",  "torn",        "swapped",     "black",      "saturated",
+    "signal-loss", "knock",     "lamp-out",    "lamps-dead",  "lamp-drift", "vibration",
+    "cut",         "jump",      "emi",         "salt-pepper", "frozen",     "other-camera",
+    "skip",        "pose-step", "held",        "compressed",  "jitter",     "blots",
+    "reflections", "ghost",     "black-level", "covered"};
 
 [[nodiscard]] constexpr std::string_view name_of(FaultKind kind) {
   return kFaultWords[static_cast<std::size_t>(kind)];
@@ -53,18 +59,20 @@ inline constexpr std::array<std::string_view, kFaultKinds> kFaultWords = {
 /// whose instant is that of their first field. Vibration, lamp-drift and skip need a length.
 struct Fault {
   FaultKind kind = FaultKind::kDropped;
-  double at_s = 0.0;                  ///< when it begins, from the recording's start
-  double for_s = 0.0;                 ///< how long it lasts, 0 or more
-  double share = 0.5;                 ///< torn: of the lines that are new, 0..1; emi: of lines hit;
-                                      ///< salt-pepper: of pixels; held: of columns, from the left
-  double level = 0.0;                 ///< lamp-out, lamp-drift: share of full light, 0..1;
-                                      ///< black: grey value
-  double amplitude = 0.0;             ///< emi: grey levels; held: sigma of the line's noise;
-                                      ///< compressed: grey levels of a step
-  double waver_ms = 0.0;              ///< jitter: by how much at most, to either side
-  double angle_deg = 0.0;             ///< knock: by how much, right-handed
-  std::array<double, 3> axis{};       ///< knock: about which axis of the camera frame, any length
-  std::uint16_t lamps = 0;            ///< lamps-dead: bit n is lamp n
+  double at_s = 0.0;             ///< when it begins, from the recording's start
+  double for_s = 0.0;            ///< how long it lasts, 0 or more
+  double share = 0.5;            ///< torn: of the lines that are new, 0..1; emi: of lines hit;
+                                 ///< salt-pepper, blots, reflections: of pixels; held: of
+                                 ///< columns, from the left; ghost: of its light;
+                                 ///< black-level: of the contrast; covered: of the lines or columns
+  double level = 0.0;            ///< lamp-out, lamp-drift: share of full light, 0..1;
+                                 ///< black, black-level, covered: grey value
+  double amplitude = 0.0;        ///< emi: grey levels; held: sigma of the line's noise;
+                                 ///< compressed: grey levels of a step
+  double waver_ms = 0.0;         ///< jitter: by how much at most, to either side
+  double angle_deg = 0.0;        ///< knock: by how much, right-handed
+  std::array<double, 3> axis{};  ///< knock: about which axis of the camera frame, any length
+  std::uint16_t lamps = 0;       ///< lamps-dead: bit n is lamp n
   std::array<double, 3> shake_mm{};   ///< vibration: amplitude in the tool frame; pose-step
   std::array<double, 3> shake_deg{};  ///< vibration: amplitude about the tool's x, y, z;
                                       ///< pose-step
@@ -72,7 +80,8 @@ struct Fault {
   std::int32_t rows = 0;              ///< jump, other-camera: lattice steps
   std::int32_t columns = 0;
   bool told = true;  ///< signal-loss: the driver marks the fields as damaged;
-                     ///< cut: the sequence shows it too
+                     ///< cut: the sequence shows it too;
+                     ///< covered: the left columns instead of the lowest lines
 };
 
 /// Whether a fault without a length lasts to the end of the recording.

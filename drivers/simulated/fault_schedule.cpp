@@ -53,6 +53,22 @@ void apply_to_light(const Fault& fault, double time_s, FieldFaults& to) {
   }
 }
 
+void apply_to_view(const Fault& fault, FieldFaults& to) {
+  switch (fault.kind) {
+    case FaultKind::kBlots: to.blots_share = std::max(to.blots_share, fault.share); break;
+    case FaultKind::kReflections:
+      to.reflections_share = std::max(to.reflections_share, fault.share);
+      break;
+    case FaultKind::kGhost: to.ghost_share = std::max(to.ghost_share, fault.share); break;
+    case FaultKind::kBlackLevel: to.black_level = std::array{fault.level, fault.share}; break;
+    case FaultKind::kCovered:
+      to.covered = std::array{fault.level, fault.share};
+      to.covered_left = fault.told;
+      break;
+    default: break;
+  }
+}
+
 void apply_to_picture(const Fault& fault, FieldFaults& to) {
   switch (fault.kind) {
     case FaultKind::kRepeated: to.repeated = true; break;
@@ -81,7 +97,7 @@ void apply_to_picture(const Fault& fault, FieldFaults& to) {
       to.held_noise = fault.amplitude;
       break;
     case FaultKind::kCompressed: to.coarseness = fault.amplitude; break;
-    default: break;
+    default: apply_to_view(fault, to); break;
   }
 }
 

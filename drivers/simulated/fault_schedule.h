@@ -49,6 +49,12 @@ struct FieldFaults {
   double held_noise = 0.0;  ///< held: sigma behind the store, grey levels
   double coarseness = 0.0;  ///< compressed: grey levels of a step
   double waver_s = 0.0;     ///< jitter: of the stamp, at most
+  double blots_share = 0.0;
+  double reflections_share = 0.0;
+  double ghost_share = 0.0;
+  std::optional<std::array<double, 2>> black_level;  ///< grey value, share of the contrast left
+  std::optional<std::array<double, 2>> covered;      ///< grey value, share of the lines or columns
+  bool covered_left = false;                         ///< of the columns, from the left
 
   [[nodiscard]] constexpr bool has(FaultKind kind) const {
     return ((kinds >> static_cast<unsigned>(kind)) & 1U) != 0;
@@ -57,7 +63,8 @@ struct FieldFaults {
 
 /// What `faults` do to the field of a slot. Of several of a kind lamps multiply, dead lamps,
 /// knocks, jumps and shakes add up, fills and tears are the last one's, emi, salt-pepper and jitter
-/// the largest's, held and compressed the last one's.
+/// the largest's, held and compressed the last one's; blots, reflections and ghosts are the
+/// largest's, black levels and covers the last one's.
 [[nodiscard]] FieldFaults faults_of(std::span<const Fault> faults, const FieldSlot& slot);
 
 /// How the faults shake the tool at an instant: T_tool_shaken, the identity without vibration.

@@ -1,6 +1,8 @@
 #include "drivers/simulated/simulated_robot.h"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 
 #include "core/base/trigonometry.h"
@@ -174,6 +176,26 @@ SheetTool SimulatedRobot::believed_pose() const {
   return core::kinematics::tool_pose(believed_, drive_.readings_rad());
 }
 
+core::RobotPose SimulatedRobot::told_pose() const {
+  constexpr double kNanodegrees = 180.0e9 / core::kPi;
+  const auto pose = believed_.T_sheet_base.inverse() * believed_pose();
+  const auto& R = pose.rotation();
+  const std::array<double, 3> angles_rad = {std::atan2(R(1, 0), R(0, 0)),
+                                            std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))),
+                                            std::atan2(R(2, 1), R(2, 2))};
+  core::RobotPose told;
+  told.turned = true;
+  for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+    told.position_nm[i] = std::llround(1e6 * pose.translation_mm()[static_cast<Eigen::Index>(i)]);
+    told.angles_ndeg[i] = std::llround(kNanodegrees * angles_rad[i]);
+  }
+  told.joints = believed_.arm.joints();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(told.joints); ++i) {
+    told.joints_ndeg[i] = std::llround(kNanodegrees * drive_.readings_rad()[i]);
+  }
+  return told;
+}
+
 std::optional<TubeAddress> SimulatedRobot::believed_tube() const {
   // Where the guidetube's axis meets the sheet, as the box sees it too.
   const SheetTool pose = believed_pose();
@@ -223,6 +245,10 @@ bool SimulatedRobot::say(const Event& event) {
   }
   if (!message.at && now_s_ >= 0.0) {  // before time 0 there is no clock to tell an instant by
     message.at = instant_of(now_s_);
+  }
+  if (auto* const request = core::content_if<core::PoseRequest>(message);
+      request != nullptr && !request->robot) {
+    request->robot = told_pose();
   }
   if (!messages_.try_push_back(message)) {
     return false;

@@ -54,7 +54,8 @@ class SimulatedRobot final : public ToolMotion {
   [[nodiscard]] core::Result<void> add(const core::kinematics::PathSegment& segment);
 
   /// Sends a message to the box; false when kMaxMessages are waiting, and it is not sent.
-  /// Messages without an id or an instant of their own get the next number and the robot's time.
+  /// Messages without an id or an instant of their own get the next number and the robot's time,
+  /// and a pose request without a pose the robot's own, as told_pose() has it.
   bool say(const core::Event& event);
 
   /// The tool's true place; turns the joints to that instant. An earlier instant than the last is
@@ -72,6 +73,8 @@ class SimulatedRobot final : public ToolMotion {
 
   /// Where the robot believes its tool: the joints' readings through the believed arm.
   [[nodiscard]] core::Transform<core::frames::Sheet, core::frames::Tool> believed_pose() const;
+  /// The same in the robot's own base, with the joints' readings: what a controller tells.
+  [[nodiscard]] core::RobotPose told_pose() const;
   /// The tube that the robot believes nearest to its tool's axis; empty where none stands.
   [[nodiscard]] std::optional<core::TubeAddress> believed_tube() const;
   [[nodiscard]] const core::kinematics::InstalledArm& true_arm() const { return true_; }

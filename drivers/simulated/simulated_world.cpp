@@ -8,6 +8,7 @@
 
 #include "core/tubesheet/sheet_places.h"
 #include "drivers/simulated/dice.h"
+#include "drivers/simulated/spoilt_picture.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -313,8 +314,10 @@ void SimulatedWorld::expose(const Shutter& shutter, const SimulatedField& out) {
   exposure.parity = out.field.parity;
   exposure.noise_seed = derived_seed(scenario_->seed, static_cast<std::uint64_t>(out.slot));
   exposure.window = window_;
-  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, following_share(),
-                        scenario_->seed, exposure);
+  // A slow lamp swings more, as a box's own does (core/lighting).
+  const AnotherLamp another{following_share(), scenario_->light.lag_s > 0.1 ? 0.02 : 0.01};
+  another_picture_.show(out.field, out.faults, scenario_->scene.sheet, another, scenario_->seed,
+                        exposure);
   draw(exposure, out.faults);
 }
 
@@ -342,6 +345,7 @@ void SimulatedWorld::draw(const core::rendering::Exposure& exposure, const Field
   }
   const core::CameraSettings& camera = scenario_->scene.camera;
   renderer_.render(exposure, {frame_.data(), camera.width_px, camera.height_px, camera.width_px});
+  spoil(field, faults, derived_seed(exposure.noise_seed, 2));
   if (faults.emi_share > 0.0) {
     disturb_lines(field, faults.emi_share, faults.emi_amplitude, dice);
   }

@@ -146,20 +146,19 @@ core::Field BufferJudge::second_field() const {
   return field;
 }
 
-BufferJudge::Place BufferJudge::place_of(Parity parity) const {
-  const bool odd = parity == Parity::kOdd;
-  if (agreed_.kind != BufferKind::kPair) {
-    return {0, 1, agreed_.lines};
-  }
-  if (agreed_.sequential) {
-    return {odd == odd_above_ ? 0 : agreed_.lines / 2, 1, agreed_.lines / 2};
-  }
-  const std::int32_t first = odd ? 1 : 0;
-  return {first, 2, (agreed_.lines - first + 1) / 2};
+FieldLines BufferJudge::lines_of(Parity parity) const {
+  return agreed_.lines_of(parity == Parity::kOdd, odd_above_);
 }
 
-void BufferJudge::look_at_picture(core::Field& field) {
+void BufferJudge::look_at_picture(core::Field& field, bool unwritten) {
   CameraCounters& counters = report_->counters;
+  if (unwritten) {
+    // What is in it beside is not looked at; a buffer that the driver flagged is told once.
+    if (field.status == FieldStatus::kGood) {
+      doubt(field, CameraTrouble::kDamaged, counters.unwritten);
+    }
+    return;
+  }
   switch (look_at(field.pixels)) {
     case Look::kPicture: return;
     case Look::kNoise: doubt(field, CameraTrouble::kNoise, counters.noise); return;

@@ -41,17 +41,12 @@ class BufferJudge {
   /// The other field of that buffer.
   [[nodiscard]] core::Field second_field() const;
 
-  /// Where a field stands in that buffer, in lines: the first one, and how many from one to the
-  /// next.
-  struct Place {
-    std::int32_t first = 0;
-    std::int32_t step = 1;
-    std::int32_t lines = 0;
-  };
-  [[nodiscard]] Place place_of(core::Parity parity) const;
+  /// Where a field stands in that buffer.
+  [[nodiscard]] FieldLines lines_of(core::Parity parity) const;
 
-  /// A glance at the pixels: makes the field a damaged one where no camera made them.
-  void look_at_picture(core::Field& field);
+  /// A glance at the pixels: makes the field a damaged one where no camera made them, or
+  /// `unwritten`, where the driver left lines of an older picture.
+  void look_at_picture(core::Field& field, bool unwritten);
 
  private:
   [[nodiscard]] core::Parity parity_of(const ::v4l2_buffer& buffer);

@@ -17,11 +17,12 @@ constexpr std::uint32_t kFewest = 2;
 
 }  // namespace
 
-Result<void> BufferRing::open(int descriptor, CaptureApi api, std::size_t bytes,
+Result<void> BufferRing::open(int descriptor, const AgreedFormat& agreed, std::int32_t width_px,
                               std::string& message) {
   descriptor_ = descriptor;
-  api_ = api;
-  picture_bytes_ = bytes;
+  api_ = agreed.api;
+  picture_bytes_ = agreed.bytes;
+  marks_.begin(agreed, width_px);
   const auto fail = [&](const char* what, int status) -> Result<void> {
     message = std::string(what) + ": " + std::strerror(-status);
     close();
@@ -29,7 +30,7 @@ Result<void> BufferRing::open(int descriptor, CaptureApi api, std::size_t bytes,
   };
   v4l2_requestbuffers wanted{};
   wanted.count = kBuffers;
-  wanted.type = buffer_type_of(api);
+  wanted.type = buffer_type_of(api_);
   wanted.memory = V4L2_MEMORY_MMAP;
   if (const int status = kernel_->ioctl(descriptor, VIDIOC_REQBUFS, &wanted); status != 0) {
     return status == -EBUSY
@@ -121,6 +122,7 @@ int BufferRing::take(v4l2_buffer& buffer) {
 
 int BufferRing::queue(std::uint32_t index) {
   Mapped& mapped = buffers_[static_cast<std::int32_t>(index)];
+  marks_.lay(static_cast<std::byte*>(mapped.memory) + mapped.offset);
   BufferCall call(api_, index);
   const int status = kernel_->ioctl(descriptor_, VIDIOC_QBUF, call.argument());
   mapped.queued = status == 0;

@@ -6,8 +6,10 @@
 
 #include "core/base/result.h"
 #include "core/base/static_vector.h"
+#include "drivers/v4l2/camera_setup.h"
 #include "drivers/v4l2/capture_api.h"
 #include "drivers/v4l2/kernel.h"
+#include "drivers/v4l2/write_marks.h"
 
 struct v4l2_buffer;
 
@@ -21,10 +23,10 @@ class BufferRing {
 
   explicit BufferRing(Kernel& kernel) : kernel_(&kernel) {}
 
-  /// Obtains, maps and queues the buffers, each of `bytes` at least, and starts the stream. After
-  /// an error the ring is closed. Errors: kIo, with `message`.
-  [[nodiscard]] core::Result<void> open(int descriptor, CaptureApi api, std::size_t bytes,
-                                        std::string& message);
+  /// Obtains, maps and queues the buffers for pictures of this format and width, and starts the
+  /// stream. After an error the ring is closed. Errors: kIo, with `message`.
+  [[nodiscard]] core::Result<void> open(int descriptor, const AgreedFormat& agreed,
+                                        std::int32_t width_px, std::string& message);
 
   /// Stops the stream and gives all memory back, also where the device is gone.
   void close();
@@ -41,6 +43,10 @@ class BufferRing {
 
   /// Where the picture of a buffer that was taken begins.
   [[nodiscard]] const std::byte* memory(std::uint32_t index) const;
+  /// Whether the driver left lines of that field as they were before it got the buffer.
+  [[nodiscard]] bool unwritten(std::uint32_t index, const FieldLines& field) const {
+    return marks_.left(memory(index), field);
+  }
   [[nodiscard]] std::int64_t refusals() const { return refusals_; }
 
  private:
@@ -61,6 +67,7 @@ class BufferRing {
   int descriptor_ = -1;
   CaptureApi api_ = CaptureApi::kWhole;
   std::size_t picture_bytes_ = 0;
+  WriteMarks marks_;
   core::StaticVector<Mapped, kMostBuffers> buffers_;
   std::int64_t refusals_ = 0;
 };

@@ -24,10 +24,6 @@ constexpr int kMostControls = 512;
 constexpr char lower(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::vector<v4l2_queryctrl> list_controls(Kernel& kernel, int descriptor) {
   std::vector<v4l2_queryctrl> controls;
@@ -37,7 +33,8 @@ std::vector<v4l2_queryctrl> list_controls(Kernel& kernel, int descriptor) {
     if (kernel.ioctl(descriptor, VIDIOC_QUERYCTRL, &control) != 0) {
       break;
     }
-    if ((control.flags & V4L2_CTRL_FLAG_DISABLED) == 0) {
+    const bool heading = control.type == V4L2_CTRL_TYPE_CTRL_CLASS;
+    if (!heading && (control.flags & V4L2_CTRL_FLAG_DISABLED) == 0) {
       controls.push_back(control);
     }
   }
@@ -103,6 +100,19 @@ Result<void> set_control(Kernel& kernel, int descriptor, const v4l2_queryctrl& c
 }
 
 }  // namespace
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lower(x) == lower(y); });
+}
+
+std::vector<std::string> control_names(Kernel& kernel, int descriptor) {
+  std::vector<std::string> names;
+  for (const v4l2_queryctrl& control : list_controls(kernel, descriptor)) {
+    names.push_back(text_of(control.name, sizeof control.name));
+  }
+  return names;
+}
 
 Result<void> set_controls(Kernel& kernel, int descriptor,
                           const std::vector<ControlSetting>& controls, std::string& message) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.h"
@@ -8,6 +9,12 @@
 #include "drivers/v4l2/v4l2_settings.h"
 
 namespace tubesight::drivers::v4l2 {
+
+/// Whether two names of controls, or of their entries, are one: letters of either case.
+[[nodiscard]] bool same_name(std::string_view a, std::string_view b);
+
+/// The names of the controls that a camera has.
+[[nodiscard]] std::vector<std::string> control_names(Kernel& kernel, int descriptor);
 
 /// Sets controls by their names and reads each back.
 ///

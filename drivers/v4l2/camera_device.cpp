@@ -1,7 +1,9 @@
 #include "drivers/v4l2/camera_device.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 #include <linux/videodev2.h>
 
@@ -30,22 +32,37 @@ Result<void> CameraDevice::open(std::string& message) {
   return opened;
 }
 
-Result<void> CameraDevice::open_all(std::string& message) {
-  const std::string node = find_camera(*kernel_, settings_.device);
-  if (node.empty()) {
-    std::string there;
-    for (const CameraInfo& camera : list_cameras(*kernel_)) {
-      there += (there.empty() ? "" : ", ") + camera.name();
+/// The node of the camera that settings name, where there is one of that name.
+Result<void> CameraDevice::find(std::string& node, std::string& message) {
+  const std::vector<std::string> found = find_cameras(*kernel_, settings_.device);
+  if (found.size() == 1) {
+    node = found.front();
+    return {};
+  }
+  std::string there;
+  for (const CameraInfo& camera : list_cameras(*kernel_)) {
+    if (found.empty() || std::ranges::find(found, camera.node) != found.end()) {
+      there += (there.empty() ? "" : ", ") + (found.empty() ? camera.name() : camera.place());
     }
+  }
+  if (found.empty()) {
     return refuse(Error::kDisconnected, message,
                   "is not there, expected one of: " + (there.empty() ? "no camera is" : there));
   }
+  return refuse(Error::kUnsupported, message,
+                "is there more than once (" + there + "), expected one: name it by its place");
+}
+
+Result<void> CameraDevice::open_all(std::string& message) {
+  std::string node;
+  TUBESIGHT_TRY(find(node, message));
   descriptor_ = kernel_->open(node);
   if (descriptor_ < 0) {
-    return refuse(Error::kIo, message,
-                  std::string("cannot be opened: ") + std::strerror(-descriptor_));
+    return refuse(Error::kIo, message, "cannot be opened: " + words_of_refusal(descriptor_));
   }
   agreed_ = {};
+  signal_ = Signal::kGood;
+  question_.begin();
   TUBESIGHT_TRY(check(node, message));
   // Nothing is set on a camera that another program uses: its input would be switched under it. No
   // buffers are asked for, which only the stranger is refused.
@@ -56,22 +73,33 @@ Result<void> CameraDevice::open_all(std::string& message) {
     return refuse(Error::kIo, message,
                   "is busy: another program takes its pictures, expected it free");
   }
-  keep_input();
-  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, agreed_, message));
+  TUBESIGHT_TRY(keep_input(message));
+  TUBESIGHT_TRY(set_up(*kernel_, descriptor_, settings_, question_, agreed_, message));
+  TUBESIGHT_TRY(picture_.begin(descriptor_, settings_.controls, message));
   input_ = agreed_.input_status ? static_cast<int>(agreed_.input) : input_;
-  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_.api, agreed_.bytes, message));
+  TUBESIGHT_TRY(ring_.open(descriptor_, agreed_, settings_.width_px, message));
   identity_.keep(found_);
   return {};
 }
 
 /// Settings that name no input take the one found at the first start, not one that somebody has
 /// switched to since.
-void CameraDevice::keep_input() {
+Result<void> CameraDevice::keep_input(std::string& message) {
   int index = 0;
-  if (input_ >= 0 && kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) == 0 && index != input_) {
-    index = input_;
-    static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_S_INPUT, &index));
+  if (input_ < 0 || !settings_.input.empty() ||
+      kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index) != 0 || index == input_) {
+    return {};
   }
+  int wanted = input_;
+  const int status = kernel_->ioctl(descriptor_, VIDIOC_S_INPUT, &wanted);
+  static_cast<void>(kernel_->ioctl(descriptor_, VIDIOC_G_INPUT, &index));
+  if (status == 0 && index == input_) {
+    return {};
+  }
+  return refuse(Error::kIo, message,
+                "stands at input " + std::to_string(index) + ", expected " +
+                    std::to_string(input_) + ", the one that this box has used so far" +
+                    (status == 0 ? "" : std::string(": ") + std::strerror(-status)));
 }
 
 Result<void> CameraDevice::check(const std::string& node, std::string& message) {
@@ -105,23 +133,30 @@ bool CameraDevice::switched() {
          static_cast<std::uint32_t>(index) != agreed_.input;
 }
 
-Signal CameraDevice::signal() {
+/// What the input's state says.
+Signal CameraDevice::signal_of_input() {
   v4l2_input input{};
   input.index = agreed_.input;
-  if (agreed_.input_status && kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) == 0) {
-    if (says_no_signal(input.status)) {
-      return Signal::kNone;
-    }
-    if (says_no_standard(input.status)) {
-      return Signal::kOtherStandard;
-    }
-  }
-  if (agreed_.standard == VideoStandard::kNone) {
+  if (!agreed_.input_status || kernel_->ioctl(descriptor_, VIDIOC_ENUMINPUT, &input) != 0) {
     return Signal::kGood;
   }
-  const VideoStandard sensed = sense_standard(*kernel_, descriptor_);
-  return sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
-                                                                      : Signal::kOtherStandard;
+  return says_no_signal(input.status)     ? Signal::kNone
+         : says_no_standard(input.status) ? Signal::kOtherStandard
+                                          : Signal::kGood;
+}
+
+Signal CameraDevice::signal() {
+  const Signal before = signal_;
+  signal_ = signal_of_input();
+  // A driver that makes buffers wait for the answer is asked while none is good anyway: until a
+  // signal that was away, or of another standard, is known to be the right one.
+  const bool may_ask = !question_.dear() || before != Signal::kGood;
+  if (signal_ == Signal::kGood && agreed_.standard != VideoStandard::kNone && may_ask) {
+    const VideoStandard sensed = question_.ask(descriptor_);
+    signal_ = sensed == VideoStandard::kNone || sensed == agreed_.standard ? Signal::kGood
+                                                                           : Signal::kOtherStandard;
+  }
+  return signal_;
 }
 
 }  // namespace tubesight::drivers::v4l2

@@ -1,19 +1,24 @@
 #include "drivers/v4l2/camera_finder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstring>
 #include <string_view>
 
 #include <linux/videodev2.h>
 
+#include "drivers/v4l2/camera_controls.h"
 #include "drivers/v4l2/capture_api.h"
 #include "drivers/v4l2/pixel_format.h"
+#include "drivers/v4l2/video_standard.h"
 
 namespace tubesight::drivers::v4l2 {
 namespace {
 
 constexpr std::string_view kBus = "bus:";
 constexpr std::string_view kSerial = "serial:";
+constexpr std::string_view kById = "/dev/v4l/by-id/";
 constexpr const char* kClass = "/sys/class/video4linux";
 /// Entries of one list that a driver is asked for: one that never ends must not hold us.
 constexpr std::uint32_t kMostEntries = 64;
@@ -34,8 +39,13 @@ class Opened {
     }
   }
   [[nodiscard]] bool good() const { return descriptor_ >= 0; }
+  [[nodiscard]] std::string why() const { return words_of_refusal(descriptor_); }
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] int call(unsigned long request, void* argument) const {
+    return good() ? kernel_->ioctl(descriptor_, request, argument) : -EBADF;
+  }
   [[nodiscard]] bool ask(unsigned long request, void* argument) const {
-    return good() && kernel_->ioctl(descriptor_, request, argument) == 0;
+    return call(request, argument) == 0;
   }
 
  private:
@@ -60,14 +70,34 @@ std::string size_words(std::uint32_t width, std::uint32_t height) {
 }
 
 void list_inputs(const Opened& camera, CameraInfo& info) {
+  v4l2_std_id known = 0;
   for (std::uint32_t i = 0; i < kMostEntries; ++i) {
     v4l2_input input{};
     input.index = i;
     if (!camera.ask(VIDIOC_ENUMINPUT, &input)) {
-      return;
+      break;
     }
     info.inputs.push_back(text_of(input.name, sizeof input.name));
+    known |= input.std;
   }
+  for (const v4l2_std_id standard : {V4L2_STD_525_60, V4L2_STD_625_50}) {
+    if ((known & standard) != 0) {
+      info.standards.emplace_back(name_of(standard_of(standard)));
+    }
+  }
+  v4l2_std_id set = 0;
+  if (!info.standards.empty() && camera.ask(VIDIOC_G_STD, &set) &&
+      standard_of(set) != VideoStandard::kNone) {
+    info.standard = name_of(standard_of(set));
+  }
+}
+
+/// Whether another program has its buffers; none are asked for, which only the stranger is refused.
+bool taken_by_another(const Opened& camera, CaptureApi api) {
+  v4l2_requestbuffers none{};
+  none.type = buffer_type_of(api);
+  none.memory = V4L2_MEMORY_MMAP;
+  return camera.call(VIDIOC_REQBUFS, &none) == -EBUSY;
 }
 
 /// The sizes of a format: one by one, or the smallest and the largest.
@@ -113,6 +143,11 @@ void list_formats(const Opened& camera, CaptureApi api, CameraInfo& info) {
 
 }  // namespace
 
+std::string words_of_refusal(int status) {
+  return std::string(std::strerror(-status)) +
+         (status == -EACCES ? ", expected a user of the group video" : "");
+}
+
 std::string text_of(const unsigned char* letters, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length && letters[i] != 0; ++i) {
@@ -126,14 +161,15 @@ std::string text_of(const unsigned char* letters, std::size_t length) {
 // Of what keeps a place it says where the camera is plugged in; by-id, which camera it is. Neither
 // says it of two cameras of a maker who gives them no numbers: the place does.
 std::string CameraInfo::name() const {
-  if (!serial.empty()) {
+  if (!serial.empty() && alone) {
     return "serial:" + serial;
   }
+  return by_path.empty() && !by_id.empty() ? by_id : place();
+}
+
+std::string CameraInfo::place() const {
   if (!by_path.empty()) {
     return by_path;
-  }
-  if (!by_id.empty()) {
-    return by_id;
   }
   return bus.empty() ? node : "bus:" + bus;
 }
@@ -160,7 +196,7 @@ std::vector<CameraInfo> list_cameras(Kernel& kernel) {
     info.node = "/dev/" + name;
     const Opened camera(kernel, info.node);
     v4l2_capability can{};
-    info.busy = !camera.good();
+    info.refused = camera.good() ? "" : camera.why();
     if (camera.good() && (!camera.ask(VIDIOC_QUERYCAP, &can) || !captures(can))) {
       continue;
     }
@@ -171,15 +207,51 @@ std::vector<CameraInfo> list_cameras(Kernel& kernel) {
     info.by_id = link_to(kernel, "/dev/v4l/by-id", info.node);
     info.by_path = link_to(kernel, "/dev/v4l/by-path", info.node);
     list_inputs(camera, info);
-    list_formats(camera, capture_api_of(can).value_or(CaptureApi::kWhole), info);
+    const CaptureApi api = capture_api_of(can).value_or(CaptureApi::kWhole);
+    list_formats(camera, api, info);
+    if (camera.good()) {
+      info.taken = taken_by_another(camera, api);
+      info.controls = control_names(kernel, camera.descriptor());
+    }
     cameras.push_back(info);
+  }
+  for (CameraInfo& camera : cameras) {
+    camera.alone = std::ranges::count(cameras, camera.serial, &CameraInfo::serial) == 1;
   }
   return cameras;
 }
 
-std::string find_camera(Kernel& kernel, const std::string& device) {
+namespace {
+
+/// The nodes of all cameras that have the name of this one below by-id, where the link leads to
+/// whichever came last. Several nodes of one device have names of their own.
+std::vector<std::string> alike(Kernel& kernel, const std::string& node) {
+  const std::vector<CameraInfo> cameras = list_cameras(kernel);
+  const auto own = std::ranges::find(cameras, node, &CameraInfo::node);
+  const auto device = [&](const std::string& of) {
+    return kernel.real_path(std::string(kClass) + "/" + file_name(of) + "/device");
+  };
+  std::vector<std::string> found{node};
+  for (const CameraInfo& camera : cameras) {
+    if (own != cameras.end() && camera.node != node && camera.serial == own->serial &&
+        camera.driver == own->driver && camera.card == own->card &&
+        device(camera.node) != device(node)) {
+      found.push_back(camera.node);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> find_cameras(Kernel& kernel, const std::string& device) {
+  std::vector<std::string> found;
   if (device.starts_with('/')) {
-    return kernel.real_path(device);
+    const std::string node = kernel.real_path(device);
+    if (node.empty()) {
+      return found;
+    }
+    return device.starts_with(kById) ? alike(kernel, node) : std::vector{node};
   }
   const bool by_bus = device.starts_with(kBus);
   const std::string wanted = device.substr(by_bus ? kBus.size() : kSerial.size());
@@ -194,10 +266,10 @@ std::string find_camera(Kernel& kernel, const std::string& device) {
       continue;
     }
     if (!by_bus || text_of(can.bus_info, sizeof can.bus_info) == wanted) {
-      return node;
+      found.push_back(node);
     }
   }
-  return {};
+  return found;
 }
 
 }  // namespace tubesight::drivers::v4l2

@@ -17,6 +17,7 @@ const char* words_of(CameraTrouble trouble) {
     case CameraTrouble::kStream: return "the driver gave up";
     case CameraTrouble::kSourceChanged: return "the signal's format changed";
     case CameraTrouble::kSwitched: return "another input was chosen";
+    case CameraTrouble::kAltered: return "a control that moves the picture was changed";
     case CameraTrouble::kGone: return "the device is gone";
   }
   return "";

@@ -21,6 +21,7 @@ enum class CameraTrouble : std::uint8_t {
   kStream,         ///< the driver gave up the stream
   kSourceChanged,  ///< the signal's format became another one
   kSwitched,       ///< another program has chosen another input
+  kAltered,        ///< another program has mirrored, turned, shifted or magnified the picture
   kGone,           ///< the device is not there any more
 };
 
@@ -31,6 +32,7 @@ enum class CameraTrouble : std::uint8_t {
 struct CameraCounters : PictureCounters {
   std::int64_t flagged = 0;         ///< buffers that the driver marked as damaged
   std::int64_t cut_short = 0;       ///< buffers with less than the picture
+  std::int64_t unwritten = 0;       ///< fields with lines that the driver did not write
   std::int64_t without_signal = 0;  ///< buffers while the input said that none came in
   std::int64_t other_standard = 0;  ///< buffers of a signal of another standard
   std::int64_t wrong_stamps = 0;    ///< buffers whose stamp cannot be
@@ -38,7 +40,7 @@ struct CameraCounters : PictureCounters {
   std::int64_t queue_errors = 0;    ///< buffers that the driver did not take back
   std::int64_t dequeue_errors = 0;  ///< refusals to give one
   std::int64_t idle_wakes = 0;      ///< times that one was announced and none was there
-  std::int64_t source_changes = 0;  ///< told by the driver, and inputs switched by others
+  std::int64_t source_changes = 0;  ///< told by the driver, and what others switched or altered
   std::int64_t disconnects = 0;     ///< times that the device went
 };
 

@@ -63,11 +63,12 @@ bool same_layout(std::uint32_t asked, std::uint32_t got) {
 
 class Setup {
  public:
-  Setup(Kernel& kernel, int descriptor, const V4l2Settings& settings, AgreedFormat& agreed,
-        std::string& message)
+  Setup(Kernel& kernel, int descriptor, const V4l2Settings& settings, StandardQuestion& question,
+        AgreedFormat& agreed, std::string& message)
       : kernel_(kernel),
         descriptor_(descriptor),
         settings_(settings),
+        question_(question),
         agreed_(agreed),
         message_(message) {}
 
@@ -94,6 +95,7 @@ class Setup {
   Kernel& kernel_;
   int descriptor_;
   const V4l2Settings& settings_;
+  StandardQuestion& question_;
   AgreedFormat& agreed_;
   std::string& message_;
   double standard_frames_per_s_ = 0.0;
@@ -102,10 +104,11 @@ class Setup {
 
 Result<void> Setup::choose_input() {
   std::string offered;
-  for (std::uint32_t i = 0; i < kMostEntries && !settings_.input.empty(); ++i) {
+  int chosen = -1;
+  for (std::uint32_t i = 0; chosen < 0 && !settings_.input.empty(); ++i) {
     v4l2_input input{};
     input.index = i;
-    if (ask(VIDIOC_ENUMINPUT, &input) != 0) {
+    if (i == kMostEntries || ask(VIDIOC_ENUMINPUT, &input) != 0) {
       return fail(Error::kUnsupported, "has no input '" + settings_.input + "', offers " +
                                            (offered.empty() ? "none by a name" : offered));
     }
@@ -116,12 +119,16 @@ Result<void> Setup::choose_input() {
       if (const int status = ask(VIDIOC_S_INPUT, &index); status != 0) {
         return fail(Error::kIo, "input '" + name + "': " + std::strerror(-status));
       }
-      break;
+      chosen = static_cast<int>(i);
     }
   }
   int index = 0;
   agreed_.input_status = ask(VIDIOC_G_INPUT, &index) == 0;
   agreed_.input = static_cast<std::uint32_t>(index);
+  // Behind another input there is another camera.
+  if (chosen >= 0 && agreed_.input_status && index != chosen) {
+    return fail(Error::kIo, "does not keep its input '" + settings_.input + "'");
+  }
   return {};
 }
 
@@ -152,10 +159,13 @@ Result<void> Setup::choose_standard() {
 /// A change of the source before this is seen by what is asked after it.
 void Setup::listen() {
   // A driver that knows nothing of it never says that the source has changed.
-  v4l2_event_subscription change{};
-  change.type = V4L2_EVENT_SOURCE_CHANGE;
-  change.id = agreed_.input;
-  static_cast<void>(ask(VIDIOC_SUBSCRIBE_EVENT, &change));
+  // Drivers name the input, as they should, or 0 whatever the input.
+  for (const std::uint32_t id : {0U, agreed_.input}) {
+    v4l2_event_subscription change{};
+    change.type = V4L2_EVENT_SOURCE_CHANGE;
+    change.id = id;
+    static_cast<void>(ask(VIDIOC_SUBSCRIBE_EVENT, &change));
+  }
 }
 
 Result<void> Setup::compare_signal() {
@@ -166,7 +176,7 @@ Result<void> Setup::compare_signal() {
       break;
     }
   }
-  const VideoStandard signal = sense_standard(kernel_, descriptor_);
+  const VideoStandard signal = question_.ask(descriptor_);
   if (agreed_.standard == VideoStandard::kNone || signal == VideoStandard::kNone ||
       signal == agreed_.standard) {
     return {};
@@ -351,9 +361,20 @@ Result<void> Setup::choose_rate() {
 
 }  // namespace
 
+FieldLines AgreedFormat::lines_of(bool odd, bool above_is_odd) const {
+  if (kind != BufferKind::kPair) {
+    return {0, 1, lines};
+  }
+  if (sequential) {
+    return {odd == above_is_odd ? 0 : lines / 2, 1, lines / 2};
+  }
+  const std::int32_t first = odd ? 1 : 0;
+  return {first, 2, (lines - first + 1) / 2};
+}
+
 Result<void> set_up(Kernel& kernel, int descriptor, const V4l2Settings& settings,
-                    AgreedFormat& agreed, std::string& message) {
-  Setup setup(kernel, descriptor, settings, agreed, message);
+                    StandardQuestion& question, AgreedFormat& agreed, std::string& message) {
+  Setup setup(kernel, descriptor, settings, question, agreed, message);
   TUBESIGHT_TRY(setup.choose_input());
   setup.listen();
   TUBESIGHT_TRY(setup.choose_standard());

@@ -15,6 +15,13 @@
 
 namespace tubesight::drivers::v4l2 {
 
+/// Where a field stands in a buffer, in lines: the first one, and how far from one to the next.
+struct FieldLines {
+  std::int32_t first = 0;
+  std::int32_t step = 1;
+  std::int32_t lines = 0;
+};
+
 /// What was agreed with a driver, read back from it.
 struct AgreedFormat {
   CaptureApi api = CaptureApi::kWhole;  ///< what the device can, known beforehand
@@ -29,6 +36,9 @@ struct AgreedFormat {
   std::uint32_t input = 0;                        ///< index of the one chosen
   bool input_status = false;                      ///< there is an input that can be asked
   VideoStandard standard = VideoStandard::kNone;  ///< that the input is set to
+
+  /// Of a buffer's field; `above_is_odd` where they stand one below the other.
+  [[nodiscard]] FieldLines lines_of(bool odd, bool above_is_odd) const;
 };
 
 /// Sets an open camera as the settings want it and reads back what became of it: input, standard,
@@ -39,8 +49,8 @@ struct AgreedFormat {
 /// Errors: kUnsupported it does not have what is wanted, kIo it refused; `message` says which, what
 /// it offers and what was wanted.
 [[nodiscard]] core::Result<void> set_up(Kernel& kernel, int descriptor,
-                                        const V4l2Settings& settings, AgreedFormat& agreed,
-                                        std::string& message);
+                                        const V4l2Settings& settings, StandardQuestion& question,
+                                        AgreedFormat& agreed, std::string& message);
 
 /// Whether a status of VIDIOC_ENUMINPUT says that no signal comes in.
 [[nodiscard]] bool says_no_signal(std::uint32_t status);

@@ -36,7 +36,7 @@ constexpr bool device_is_gone(int status) {
 
 V4l2FrameGrabber::V4l2FrameGrabber(const V4l2Settings& settings, const hal::Clock& clock,
                                    v4l2::Kernel& kernel)
-    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel) {}
+    : settings_(settings), clock_(&clock), kernel_(&kernel), device_(settings_, kernel, clock) {}
 
 Result<void> V4l2FrameGrabber::start() {
   if (started_) {
@@ -62,7 +62,8 @@ Result<void> V4l2FrameGrabber::start() {
   failed_ = false;
   silence_.begin(now);
   looked_ = now;
-  backlog_ = false;
+  backlog_ = true;  // what is there before it can be is of the stream before
+  altered_ = false;
   idle_in_a_row_ = 0;
   errors_in_a_row_ = 0;
   refused_in_a_row_ = 0;
@@ -87,6 +88,7 @@ void V4l2FrameGrabber::stop() {
 void V4l2FrameGrabber::look_after() {
   if (started_) {
     signal_ = device_.signal();
+    altered_ = altered_ || device_.altered();
   }
 }
 
@@ -206,6 +208,10 @@ Result<void> V4l2FrameGrabber::take_events() {
       ++report_.counters.source_changes;
       return break_off(CameraTrouble::kSourceChanged, Error::kIo);
     }
+    if (event.type == V4L2_EVENT_CTRL && (event.u.ctrl.changes & V4L2_EVENT_CTRL_CH_VALUE) != 0) {
+      ++report_.counters.source_changes;
+      return break_off(CameraTrouble::kAltered, Error::kIo);
+    }
     if (event.pending == 0) {
       break;
     }
@@ -219,13 +225,22 @@ Result<bool> V4l2FrameGrabber::take_buffer() {
   const int status = device_.ring().take(buffer);
   if (status == 0) {
     // Asked after the buffer was filled: one of the input before the change is lost with it.
-    if (device_.switched()) {
+    const bool switched = device_.switched();
+    if (switched || altered_) {
       ++report_.counters.source_changes;
-      return Unexpected(break_off(CameraTrouble::kSwitched, Error::kIo).error());
+      const auto trouble = switched ? CameraTrouble::kSwitched : CameraTrouble::kAltered;
+      return Unexpected(break_off(trouble, Error::kIo).error());
     }
     idle_in_a_row_ = 0;
     errors_in_a_row_ = 0;
     silence_.broken(clock_->now());
+    // What was wrong with the buffer before is known by now; in between nobody may have looked.
+    if (report_.trouble != CameraTrouble::kDamaged) {
+      silence_.whole();
+    }
+    if (silence_.broken_for_long(device_.agreed().span)) {
+      return Unexpected(break_off(CameraTrouble::kDamaged, Error::kIo).error());
+    }
     held_ = buffer.index;
     if (!settings_.use_stamps) {
       buffer.flags &= ~static_cast<std::uint32_t>(V4L2_BUF_FLAG_TIMESTAMP_MASK);  // unknown
@@ -262,7 +277,7 @@ Result<void> V4l2FrameGrabber::break_off_by(int status) {
 
 core::FieldView V4l2FrameGrabber::view_of(core::Parity parity) {
   const v4l2::AgreedFormat& agreed = device_.agreed();
-  const v4l2::BufferJudge::Place place = judge_.place_of(parity);
+  const v4l2::FieldLines place = judge_.lines_of(parity);
   core::FieldView view;
   view.width_px = settings_.width_px;
   view.lines = place.lines;
@@ -288,7 +303,7 @@ core::FieldView V4l2FrameGrabber::view_of(core::Parity parity) {
 hal::FieldLease V4l2FrameGrabber::lend() {
   core::Field field = next_;
   field.pixels = view_of(field.parity);
-  judge_.look_at_picture(field);
+  judge_.look_at_picture(field, device_.ring().unwritten(held_, judge_.lines_of(field.parity)));
   if (--fields_left_ > 0) {
     next_ = judge_.second_field();
   }

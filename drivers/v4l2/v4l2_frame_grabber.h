@@ -24,10 +24,10 @@ namespace tubesight::drivers {
 /// field is taken out when it is lent, so that everything behind sees lines of grey bytes.
 ///
 /// What cannot be believed is a damaged field: what the driver flags, what is cut short, what came
-/// while the input had no signal or one of another standard, snow, a picture of one grey, one whose
-/// stamp cannot be. What ends the stream ends it for good: grab_for() says the error until stop()
-/// and start(), which are to be called by a thread that may wait; start() finds the device again,
-/// on whatever node.
+/// while the input had no signal or one of another standard, snow, a picture of one grey, one that
+/// the driver did not write whole, one whose stamp cannot be. What ends the stream ends it for
+/// good: grab_for() says the error until stop() and start(), which are to be called by a thread
+/// that may wait; start() finds the device again, on whatever node.
 ///
 /// start(), stop() and look_after() belong to one thread, grab_for() and give_back() to another or
 /// the same; between the two kinds whoever owns the grabber hands it over.
@@ -108,6 +108,7 @@ class V4l2FrameGrabber final : public hal::FrameGrabber {
   std::int32_t refused_in_a_row_ = 0;
 
   std::atomic<v4l2::Signal> signal_{v4l2::Signal::kGood};
+  std::atomic<bool> altered_{false};  ///< since the start
   core::Snapshot<CameraReport> latest_;
 };
 

@@ -48,11 +48,13 @@ FieldTime field_time_of(VideoStandard standard) {
   return {};
 }
 
-VideoStandard sense_standard(Kernel& kernel, int descriptor) {
+VideoStandard StandardQuestion::ask(int descriptor) {
   // Without a signal drivers answer with none or with all that they know: neither says anything.
   v4l2_std_id sensed = 0;
-  return kernel.ioctl(descriptor, VIDIOC_QUERYSTD, &sensed) == 0 ? standard_of(sensed)
-                                                                 : VideoStandard::kNone;
+  const FieldTime before = clock_->now();
+  const bool answered = kernel_->ioctl(descriptor, VIDIOC_QUERYSTD, &sensed) == 0;
+  dear_ = dear_ || !answered || clock_->now() - before > kLongest;
+  return answered ? standard_of(sensed) : VideoStandard::kNone;
 }
 
 void StandardPace::begin(VideoStandard agreed) {

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include <linux/videodev2.h>
 
 #include "core/base/field.h"
 #include "drivers/v4l2/kernel.h"
+#include "hal/clock.h"
 
 namespace tubesight::drivers::v4l2 {
 
@@ -23,8 +25,30 @@ enum class VideoStandard : std::uint8_t {
 /// From one field to the next; 0 of kNone.
 [[nodiscard]] core::FieldTime field_time_of(VideoStandard standard);
 
-/// The standard of the signal that comes in, where the driver finds it out. May take its time.
-[[nodiscard]] VideoStandard sense_standard(Kernel& kernel, int descriptor);
+/// Asks a driver for the standard of the signal that comes in, as often as it bears the question.
+///
+/// Some set their chip to find it out, and sleep for a tenth of a second with the lock in hand that
+/// the calls for buffers need as well; some refuse while they stream. They are spared it: whoever
+/// asks does so only where no picture is good anyway.
+class StandardQuestion {
+ public:
+  /// A driver that takes longer keeps its buffers waiting.
+  static constexpr core::FieldTime kLongest = std::chrono::milliseconds(5);
+
+  StandardQuestion(Kernel& kernel, const hal::Clock& clock) : kernel_(&kernel), clock_(&clock) {}
+
+  /// The camera is opened anew.
+  void begin() { dear_ = false; }
+  /// kNone: the driver does not find it out. May take its time.
+  [[nodiscard]] VideoStandard ask(int descriptor);
+  /// Whether the driver was slow to answer, or refused.
+  [[nodiscard]] bool dear() const { return dear_; }
+
+ private:
+  Kernel* kernel_;
+  const hal::Clock* clock_;
+  bool dear_ = false;
+};
 
 /// Finds a signal of the other standard by the pace of its fields.
 ///

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Lattices found cold by `tubesight look`, held against published or true places (docs/accuracy.md).
 
-Usage: look_accuracy.py PROGRAM FOLDER... | look_accuracy.py --self-test
+Usage: look_accuracy.py PROGRAM FOLDER... | look_accuracy.py PROGRAM --campaign FRAMES [SEED]
+       | look_accuracy.py --self-test
 
 A folder holds pictures and a table of what they show. `centres.csv` (photographs of dot lattices):
 image, lattice indices i, j, and x_px, y_px of every dot's centroid. `centers.csv` (ray-traced scenes of
@@ -9,12 +10,19 @@ tubesheets): row, col, state, x_f, y_f of every tube-end's centre, half_w, half_
 first frame of `recording.y4m.xz`, or the stills `still-POSE-0.png`, inside `window_px` of
 `session.toml`.
 
+With `--campaign`: the first frames of that many moves of the randomised campaign (docs/campaign.md),
+each drawn whole by `tubesight simulate`. Needed are the tube-ends whose centre is in the move's window,
+whose ellipse is larger than 16 px and of whose rim half is in sight; told are the frames in which one is
+missed or one is wrong, and how many there are.
+
 Told for each picture: elements there, found, out of order, surplus, and the distance of the centres.
-Exit status 1 when an element is out of order or surplus.
+Exit status 1 when an element is out of order or surplus, with `--campaign` also when one is missed in
+more than a hundredth of the frames.
 """
 import csv
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -22,6 +30,8 @@ import tomllib
 
 NEAR_PX = 3.0  # of dots; of tube-ends a quarter of the ellipse's smaller half axis, if that is more
 LEAST_PX = 16.0  # tube-ends below this size need not be found
+LEAST_SEEN = 0.5  # nor those of whose rim less is in the picture and not behind the guidetube
+FEW = 0.01  # of the campaign's frames
 
 
 def look(program, pictures):
@@ -102,6 +112,59 @@ def photographs(folder):
     return there, None
 
 
+def campaign_frame(program, seed, move, folder):
+    """The picture, and what is there as photographs() tells it; the window; the move's stratum."""
+    scenario = folder / "m.toml"
+    told = subprocess.run([program, "campaign", "--replay-move", f"{seed}:{move}", "--out", scenario],
+                          check=True, capture_output=True, text=True).stdout
+    text = scenario.read_text(encoding="utf-8")
+    settings = tomllib.loads(text)
+    one_frame = "length_s = %r" % (1.0 / settings["video"]["rate_hz"])
+    # Moves draw the search window and a margin alone. What happens in them would be behind the end.
+    text = "".join(part for part in re.split(r"(?m)^(?=\[)", text)
+                   if part.startswith("[[step]]") or not part.startswith("[["))
+    text = re.sub(r"(?m)^window_margin_px = .*$", "", text)
+    scenario.write_text(re.sub(r"(?m)^length_s = .*$", one_frame, text, count=1), encoding="utf-8")
+    subprocess.run([program, "simulate", scenario, "--out", folder / "r"], check=True,
+                   stdout=subprocess.DEVNULL)
+    window = settings["start"]["window_px"]
+    there = []
+    with open(folder / "r.centers.csv", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            if row["field"] != "0" or row["frame"] != "0" or row["state"] != "open":
+                continue
+            u, v = float(row["x_f"]), float(row["y_f"])
+            half = min(float(row["half_w"]), float(row["half_h"]))
+            seen = float(row["rim_in_frame"]) - float(row["occluded"])
+            there.append(((int(row["row"]), int(row["col"])), u, v, max(NEAR_PX, half / 4.0),
+                          inside(window, u, v) and 2.0 * half > LEAST_PX and seen >= LEAST_SEEN))
+    return folder / "r.y4m", there, window, told.split(", ", 1)[1].split("\n", 1)[0]
+
+
+def run_campaign(program, frames, seed):
+    """Prints a line a frame with something missed or wrong, and the sum."""
+    wanted, found_all, missing, wrong = 0, 0, 0, 0
+    for move in range(frames):
+        with tempfile.TemporaryDirectory() as name:
+            picture, there, window, stratum = campaign_frame(program, seed, move, pathlib.Path(name))
+            found = next(iter(look(program, [picture]).values()), [])
+        missed, order, surplus, distances = compare(found, there)
+        surplus = [element for element in surplus if inside(window, element[2], element[3])]
+        needed = sum(element[4] for element in there)
+        wanted += needed
+        found_all += len(distances)
+        missing += bool(missed)
+        wrong += bool(order or surplus)
+        if missed or order or surplus:
+            print(f"move {seed}:{move} ({stratum}): {needed} there, {len(distances)} found, "
+                  f"{order} out of order, {len(surplus)} surplus"
+                  + "".join(f"; missed {index}" for index in missed[:5])
+                  + "".join(f"; surplus at {u:.0f}, {v:.0f}" for _, _, u, v in surplus[:5]), flush=True)
+    print(f"{frames} frames: {found_all} of {wanted} tube-ends found; one missed in {missing} frames, "
+          f"one out of order or surplus in {wrong}")
+    return wrong == 0 and missing <= FEW * frames
+
+
 def scenes(folder):
     with open(folder / "session.toml", "rb") as file:
         window = tomllib.load(file)["start"]["window_px"]
@@ -158,6 +221,9 @@ def self_test():
 if __name__ == "__main__":
     if sys.argv[1:] == ["--self-test"]:
         self_test()
+    elif sys.argv[2:3] == ["--campaign"]:
+        numbers = [int(word) for word in sys.argv[3:]]
+        sys.exit(0 if run_campaign(sys.argv[1], numbers[0], (numbers + [1])[1]) else 1)
     else:
         results = [run(sys.argv[1], pathlib.Path(folder)) for folder in sys.argv[2:]]
         sys.exit(0 if all(results) else 1)

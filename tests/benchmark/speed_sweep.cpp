@@ -2,13 +2,10 @@
 // docs/performance.md. With --sheets only the first N tubesheets, for a look that takes seconds.
 //
 // Straight moves over drawn sheets with plugs and voids, from rest to rest, at growing speed and
-// acceleration, with cameras mounted both ways. Prints Markdown tables; the same numbers every time
-// on one machine. Exit status 1 when the box vouched for a wrong tube, named one, lost a move that
-// it has to follow, or neither followed a move nor said so (`SLIPPED`).
-//
-// In a cell behind the number of moves followed: why others were lost, `held` where a move was not
-// lost but fields under a tube were not vouched for (it coasts, to the end perhaps), `off` where a
-// field under the right tube was vouched for and truly 0.3 mm or more outside the gate.
+// acceleration, with cameras mounted both ways. Prints Markdown tables. Exit status 1 when the box
+// vouched for a wrong tube, named one, lost a move that it has to follow, or slipped.
+// In a cell behind the number of moves followed: why others were lost, `held` where fields under a
+// tube were not vouched for, `off` where one was and truly 0.3 mm or more outside the gate.
 
 #include <array>
 #include <cmath>
@@ -24,6 +21,7 @@
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/campaign/random_source.h"
 #include "board/bench/output/line_plot.h"
+#include "core/kinematics/tool_path.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::benchmark {
@@ -170,7 +168,9 @@ void make(const Case& what, std::int64_t number, Mounting mounting, Scenario& sc
     scenario.video.exposure_s = what.exposure_s;
     scenario.told.motion = what.told;
     lay_path(what, random, scenario);
-    if (truth->configure(scenario.scene) && draw_clicks(random, *truth, scenario)) {
+    if (truth->configure(scenario.scene) &&
+        board::campaign::draw_clicks(random, *truth, core::kinematics::transform_of(scenario.from),
+                                     scenario, scenario.told.start.tubes)) {
       return;
     }
   }

@@ -5,7 +5,7 @@ Usage: tool_accuracy.py PROGRAM STILLS [CAMERA] | tool_accuracy.py --self-test
 
 STILLS holds session.toml, start.txt (a line a pose), still-POSE-FRAME.png and truth.csv; pose 0 is
 docked on the tube and with the offset that truth.csv tells. Told: tip and axis by that docking against
-the session's [tool], which took the pictures. With CAMERA, a folder with target.toml and its pictures,
+the session's [tool], which took the pictures, and the EFL and the tip with the EFL freed. With CAMERA, a folder with target.toml and its pictures,
 the camera is calibrated first, the tool with that camera, and then the other poses are computed with
 both: the error across the tubes. Exit status 1 when the tip is off by more than 0.05 mm, the axis by
 more than 0.03 degrees, or the chain by more than 0.05 mm RMS.
@@ -63,12 +63,31 @@ def session_without(text, *tables):
     return "".join(kept)
 
 
-def calibrate(program, stills, session, out):
+def with_focal_length(text, ratio):
+    """The text with [camera]'s EFL times ratio, and the EFL that stood there."""
+    found = re.search(r"^focal_length_mm = ([0-9.]+)", text, re.MULTILINE)
+    told = float(found.group(1))
+    return text[:found.start(1)] + f"{ratio * told:.6f}" + text[found.end(1):], told
+
+
+def calibrate(program, stills, session, out, *more):
     docked = stills.truth[0]
     run([program, "calibrate", "tool", session, "--dock", f"{docked['near_row']},{docked['near_col']}",
          *stills.pictures(0), "--start", stills.starts[0], "--dock-offset-mm",
-         f"{docked['off_x']},{docked['off_y']}", "--out", out])
+         f"{docked['off_x']},{docked['off_y']}", *more, "--out", out])
     return tomllib.loads(out.read_text())["tool"]
+
+
+def freed(program, stills, text, told, work):
+    """The EFL found at docking, from 2 % beside the true one to either side, and the tip with it."""
+    for ratio in (0.98, 1.02):
+        (work / "type.toml").write_text(with_focal_length(session_without(text, "tool"), ratio)[0])
+        tool = calibrate(program, stills, work / "type.toml", work / "tool3.toml", "--free-efl")
+        focal = tomllib.loads((work / "tool3.toml").read_text())
+        right = with_focal_length(text, 1.0)[1]
+        print(f"EFL freed from {ratio - 1:+.0%}: {focal['camera']['focal_length_mm'] - right:+.5f} mm off, "
+              f"{focal['camera_quality']['sigma'][0]:.5f} mm promised; tip "
+              f"{math.dist(tool['position_mm'], told['position_mm']):.4f} mm off")
 
 
 def chain(program, stills, session, work):
@@ -100,6 +119,7 @@ def main(program, folder, camera=None):
         print(f"docked: tip {tip:.4f} mm off (must {MUST_TIP_MM}, aim 0.02), axis {axis:.4f} deg "
               f"(must {MUST_AXIS_DEG}, aim 0.01)")
         good = tip <= MUST_TIP_MM and axis <= MUST_AXIS_DEG
+        freed(program, stills, text, told, work)
         if camera is not None:
             run([program, "calibrate", "camera", pathlib.Path(camera) / "target.toml", "--out",
                  work / "camera.toml"])
@@ -120,6 +140,8 @@ def self_test():
             "[start]\nb = 2\n")
     assert session_without(text, "tool") == "# of a tool\n[camera]\nk = 1\n\n[start]\nb = 2\n"
     assert session_without(text, "camera", "tool") == "# of a tool\n[start]\nb = 2\n"
+    assert with_focal_length("[camera]\nfocal_length_mm = 5.0  # EFL\nk = 1\n", 1.02) == (
+        "[camera]\nfocal_length_mm = 5.100000  # EFL\nk = 1\n", 5.0)
     assert math.dist(axis_of((30, 0, 0)), (0, 0, 1)) < 1e-12
     assert math.dist(axis_of((0, 90, 0)), (1, 0, 0)) < 1e-12
     assert math.dist(axis_of((0, 0, 90)), (0, -1, 0)) < 1e-12

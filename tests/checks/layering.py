@@ -48,6 +48,7 @@ MAY_INCLUDE = {
     "drivers/camera": BASE,
     "drivers/aravis": BASE + ["hal", "drivers/camera"],
     "drivers/v4l2": BASE + ["hal", "drivers/camera"],
+    "drivers/camera_yaml": BASE + ["drivers/files"],
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
     "drivers/recording": BASE + ["hal", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
@@ -76,6 +77,7 @@ POSIX = re.compile(r"^(errno|fcntl|poll|sched|signal|unistd|sys/[a-z_]+)\.h$")
 DRIVER_LIBRARY = {
     # Its library is loaded when it is needed; the address of ours is asked of a socket.
     "drivers/aravis": re.compile(r"^((arpa/inet|arv|dlfcn|netinet/in|semaphore)\.h|ctime)$"),
+    "drivers/camera_yaml": re.compile(r"^yaml\.h$"),
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
     "drivers/gpio": re.compile(r"^gpiod\.h$"),
     "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),

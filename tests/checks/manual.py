@@ -15,7 +15,7 @@ import tempfile
 from source_text import report
 
 CHOICES = [("replay", "--scalar"), ("pose", "--method"), ("pose", "--edge")]
-FILES = ["a.toml", "b.y4m", "c.y4m.xz", "d.png", "e.pgm", "f.csv", "g.txt"]
+FILES = ["a.toml", "b.y4m", "c.y4m.xz", "d.png", "e.pgm", "f.csv", "g.txt", "h.pdf"]
 # What is typed, and what is offered beside the folder.
 OFFERED = [
     ("replay ", "a.toml"),
@@ -35,6 +35,9 @@ OFFERED = [
     ("calibrate camera a.toml --out ", "a.toml"),
     ("calibrate base ", "f.csv"),
     ("calibrate base f.csv --picture ", "d.png"),
+    ("calibrate template ", "h.pdf"),
+    ("calibrate template h.pdf --lattice ", "square staggered"),
+    ("calibrate template h.pdf --dots ", "dark bright"),
     ("budget ", "a.toml"),
     ("budget a.toml --plot ", "d.png"),
     ("simulate ", "a.toml"),
@@ -42,7 +45,8 @@ OFFERED = [
     ("campaign --resume ", "f.csv"),
     ("campaign --merge f.csv ", "f.csv"),
 ]
-WITHOUT_FOLDER = {"replay a.toml b.y4m ", "campaign --moves ", "replay --scalar fixed a.toml b"}
+WITHOUT_FOLDER = {"calibrate template h.pdf --lattice ", "calibrate template h.pdf --dots ",
+                  "replay a.toml b.y4m ", "campaign --moves ", "replay --scalar fixed a.toml b"}
 # The same of the other programs; one without commands offers files at once.
 OTHERS = {
     "tubesightd": [("", "a.toml")],

@@ -27,7 +27,7 @@ void check(const core::SessionSettings& settings) {
   const auto& window = settings.start.window_px;
   require(window[0] >= 0 && window[0] < window[2] && window[2] < settings.camera.width_px);
   require(window[1] >= 0 && window[1] < window[3] && window[3] < settings.camera.height_px);
-  require(settings.start.tubes.size() >= 3);
+  require(settings.start.tubes.size() <= core::kMaxStartPoints);
   require(settings.camera.focal_length_mm > 0.0 && settings.tubesheet.bore_mm > 0.0);
   require(std::isfinite(settings.camera.distortion_per_mm2));
   require(settings.tubesheet.rows[0] <= settings.tubesheet.rows[1]);

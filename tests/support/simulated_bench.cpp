@@ -105,7 +105,8 @@ void SimulatedBench::start(const drivers::LineNoise& noise) {
   loop_ = std::make_unique<board::BoxLoop<core::FixedPoint>>(
       *session_,
       board::BoxPorts{grabber_.get(), clock_.get(), dimmer_.get(), link_.get(), station_.get()},
-      board::BoxServices{.poses = &poses_, .view = nullptr, .overlay = nullptr, .lamp = lamp});
+      board::BoxServices{
+          .poses = &poses_, .view = nullptr, .overlay = nullptr, .lamp = lamp, .pairs = &pairs_});
   ASSERT_TRUE(loop_->start());
 }
 

@@ -7,6 +7,7 @@
 #include "board/bench/script/scripted_ports.h"
 #include "board/bench/script/simulated_script.h"
 #include "board/box/box_loop.h"
+#include "board/box/pair_desk.h"
 #include "board/box/pose_service.h"
 #include "core/lighting/lamp_policy.h"
 #include "core/session/session.h"
@@ -54,6 +55,9 @@ class SimulatedBench {
   [[nodiscard]] drivers::SimulatedDimmer& dimmer() { return *dimmer_; }
   [[nodiscard]] drivers::SimulatedRobotLink& link() { return *link_; }
 
+  /// Poses by the robot and by the box.
+  [[nodiscard]] board::PairDesk& pairs() { return pairs_; }
+
   /// Of the last field.
   [[nodiscard]] const core::session::Output& output() const { return loop_->output(); }
   [[nodiscard]] const core::Sighting& sighting() const { return loop_->output().sighting; }
@@ -82,6 +86,7 @@ class SimulatedBench {
   std::unique_ptr<drivers::SimulatedRobotLink> link_;
   std::unique_ptr<core::session::Session<core::FixedPoint>> session_;
   board::PoseService poses_;
+  board::PairDesk pairs_;
   std::unique_ptr<drivers::SimulatedClock> clock_;
   std::unique_ptr<board::SimulatedScript> script_;
   std::unique_ptr<board::ScriptedOperatorStation> station_;

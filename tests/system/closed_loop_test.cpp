@@ -4,13 +4,18 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "board/bench/calibrate/base_command.h"
 #include "core/base/transform.h"
 #include "core/kinematics/arm_errors.h"
+#include "drivers/files/pairs_file.h"
 #include "tests/support/events.h"
+#include "tests/support/settings_list.h"
 #include "tests/support/simulated_bench.h"
+#include "tests/support/temporary_folder.h"
 
 namespace tubesight::tests {
 namespace {
@@ -177,6 +182,49 @@ TEST_F(ClosedLoop, APoseRequestCorrectsTheRobotWhoseClaimIsThenRight) {
   // Off by backlash and what the links' errors change within two pitches; before it was 24.6 mm.
   EXPECT_LT(bench().truth().axis.nearest.offset_mm, 0.5);
   EXPECT_EQ(bench().wrong(), 0);
+}
+
+TEST_F(ClosedLoop, PairsThatTheBoxKeepsTellWhereTheBaseTrulyStands) {
+  const support::TemporaryFolder folder;
+  // The robot's base is not where it believes; it tells poses in its own base all the same.
+  bench().robot_settings.errors.base.position_mm = {6.0, -4.0, 3.0};
+  bench().robot_settings.errors.base.rotation_deg = {0.2, 0.0, 0.0};
+  bench().robot_settings.limits = {250.0, 2000.0, 20000.0};
+  bench().start();
+  bench().run(0.6);
+  std::string message;
+  int written = 0;
+  for (const core::TubeAddress tube :
+       {TubeAddress{40, 60}, {40, 68}, {48, 68}, {48, 60}, {44, 64}}) {
+    ASSERT_TRUE(bench().robot().move_to(tube));
+    bench().run_to_rest();
+    ASSERT_TRUE(bench().robot().say(event_of(core::PoseRequest{})));
+    bench().run(0.25);
+    while (const auto pair = bench().pairs().take_pair()) {
+      ASSERT_TRUE(drivers::append_pair(folder.path("pairs.csv"), *pair, message)) << message;
+      ++written;
+    }
+  }
+  ASSERT_EQ(written, 5);
+  EXPECT_EQ(bench().wrong(), 0);
+
+  board::CalibrateBaseOptions options;
+  options.pairs = folder.path("pairs.csv");
+  options.out = folder.path("base.toml");
+  options.tool_known = true;
+  ASSERT_EQ(board::run_calibrate_base(options), board::ExitStatus::kDone);
+
+  const std::string settings = folder.read("base.toml");
+  const auto position = list_of(settings, "position_mm");
+  const auto rotation = list_of(settings, "rotation_deg");
+  const auto& truth = bench().robot().true_arm().T_sheet_base;
+  const core::Transform<core::frames::Sheet, core::frames::Base> found(
+      core::rotation_from_degrees({rotation[0], rotation[1], rotation[2]}),
+      Eigen::Vector3d(position[0], position[1], position[2]));
+  const Eigen::Vector3d there(800.0, 400.0, 960.0);  // where the tool was, in the base
+  EXPECT_GT((bench().robot_settings.believed.T_sheet_base * there - truth * there).norm(), 3.0);
+  EXPECT_LT((found * there - truth * there).norm(), 0.2)
+      << "found " << position[0] << ", " << position[1] << ", " << position[2];
 }
 
 TEST_F(ClosedLoop, ANoisyLineLosesMessagesButShiftsNoAnswer) {

@@ -34,10 +34,10 @@ using std::chrono::seconds;
 constexpr double kProved_s = 2.0;
 constexpr double kAtRest_s = 2.0;
 constexpr double kMoving_s = 10.0;
-/// Another toolhead's lamp swings, too: it takes longer to tell them apart, and now and then no
-/// name is given at all. By the source 2 s at rest, and always.
-constexpr double kOther_s = 10.0;
-constexpr bool kOtherIsAlwaysNamed = false;
+/// Another toolhead's lamp swings, too, and may be like ours by chance, which is other dice in each
+/// run: of 4,000 beginnings of such lamps 98 % are told within 2 s, and all within this but one
+/// (lamp_study --again).
+constexpr double kOther_s = 4.0;
 /// A lamp that fades is led up until full light is no more enough; from there on.
 constexpr double kFaded_s = 2.0;
 
@@ -83,7 +83,6 @@ struct Case {
   std::vector<std::string_view> conditions;  ///< any of these names it; none: nothing may
   std::string_view reason;                   ///< by which the track is lost; empty: it goes on
   double limit_s = 0.0;                      ///< from kFault_s on
-  bool always = true;                        ///< it is named
 };
 
 std::vector<Case> all_cases() {
@@ -112,14 +111,12 @@ std::vector<Case> all_cases() {
        kRests + fault("other-camera", "steps = [0, 1]\n"),
        {"unseen"},
        "not-live",
-       kOther_s,
-       kOtherIsAlwaysNamed},
+       kOther_s},
       {"another toolhead, a bulb",
        bulb + kRests + fault("other-camera", "steps = [0, 1]\n"),
        {"unseen"},
        "not-live",
-       kOther_s,
-       kOtherIsAlwaysNamed},
+       kOther_s},
   };
 }
 
@@ -223,10 +220,6 @@ class WatchedBox {
     EXPECT_LE(proved_s_, kProved_s);
     if (case_.conditions.empty()) {
       EXPECT_TRUE(last_.state == "tracking" || !last_.in_time) << last_.state << box_.said();
-      return;
-    }
-    if (!named() && !case_.always) {
-      std::printf("%-26s no name within %.2f s\n", case_.name, last_.at_s - kFault_s);
       return;
     }
     ASSERT_GE(named_s_, 0.0) << "never named: " << box_.said();

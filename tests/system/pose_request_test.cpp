@@ -1,6 +1,7 @@
 // Pose requests of the robot in a replay.
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ namespace tubesight::tests {
 namespace {
 
 /// Replays eight frames of the still with these events.
-ProgramRun replay_with(const TemporaryFolder& folder, const std::string& events) {
+ProgramRun replay_with(const TemporaryFolder& folder, const std::string& events,
+                       const std::vector<std::string>& further = {}) {
   drivers::GreyPicture still;
   std::string message;
   EXPECT_TRUE(drivers::read_grey_picture(kSquare + "still-0-0.png", still, message).has_value());
@@ -24,7 +26,9 @@ ProgramRun replay_with(const TemporaryFolder& folder, const std::string& events)
   }
   folder.write("r.y4m", recording);
   folder.write("r.events.csv", "field,time_s,kind,values\n" + events);
-  return run_tubesight(folder, {"replay", kSquare + "session.toml", "r.y4m", "--poses", "p.csv"});
+  std::vector<std::string> all = {"replay", kSquare + "session.toml", "r.y4m", "--poses", "p.csv"};
+  all.insert(all.end(), further.begin(), further.end());
+  return run_tubesight(folder, all);
 }
 
 TEST(PoseRequests, OfAReplayAreAnsweredFromTheFieldsAfterThem) {
@@ -37,6 +41,28 @@ TEST(PoseRequests, OfAReplayAreAnsweredFromTheFieldsAfterThem) {
   EXPECT_NE(run.out.find("mm off row 7 column 41\n"), std::string::npos) << run.out;
   EXPECT_EQ(Row(folder.path("p.csv"), 0).text("image"), "r.y4m:2");
   expect_right(folder.path("p.csv"), kSquare, 0.010, 0.010, 0.010);
+}
+
+TEST(PoseRequests, WithWhichTheRobotToldItsPoseBecomePairs) {
+  const TemporaryFolder folder;
+
+  const ProgramRun run = replay_with(folder, "1,,pose,\"1.5,-2,3,10,0,0\"\n", {"--pairs", "b.csv"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string text = folder.read("b.csv");
+  const Row pose(folder.path("p.csv"), 0);
+  EXPECT_NE(text.find(",use\np1,1.5000,-2.0000,3.0000,10.00000,0.00000,0.00000," +
+                      pose.text("tool_x_mm") + "," + pose.text("tool_y_mm") + "," +
+                      pose.text("tool_z_mm") + "," + pose.text("tool_alpha_deg") + ","),
+            std::string::npos)
+      << text;
+  // One place alone is no base, but it is read.
+  const ProgramRun base = run_tubesight(folder, {"calibrate", "base", "b.csv"});
+  EXPECT_NE(base.err.find("fewer than three pairs"), std::string::npos) << base.err;
+
+  EXPECT_EQ(replay_with(folder, "1,,pose,\n", {"--pairs", "none.csv"}).status, 0);
+  EXPECT_TRUE(folder.read("none.csv").starts_with("name,robot_x_mm,")) << "no row";
+  EXPECT_EQ(replay_with(folder, "1,,pose,\n", {"--pairs", "p.csv"}).status, 2) << "twice";
 }
 
 TEST(PoseRequests, OfAMovingToolAreRefused) {

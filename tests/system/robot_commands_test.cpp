@@ -1,8 +1,11 @@
 // What a robot can order of a running box over the link: its pose with the correction to move by, a
 // tube at a place of the picture, the lamp, an end to a verdict.
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -56,10 +59,14 @@ class RobotCommands : public ::testing::Test {
     ASSERT_TRUE(drivers::load_scenario(scenario, {-1, true}, *scenario_, messages))
         << messages.front();
     ASSERT_TRUE(world_->configure(scenario_->scenario));
+    // One correction, at the centre of tube (40, 60).
+    box_.folder().write("zones.csv",
+                        "sheet_x_mm,sheet_y_mm,dx_mm,dy_mm,dz_mm,sigma_mm\n"
+                        "1524.0,1016.0,0.8,-0.4,1.2,0.1\n");
     box_.write_simulated_settings(
         "script = true\n[link]\nkind = \"modbus\"\nbaud = 115200\nparity = \"none\"\nunit = 17\n"
         "device = \"" +
-            line_.device() + "\"\n",
+            line_.device() + "\"\n[pairs]\nfile = \"pairs.csv\"\n[zones]\nfile = \"zones.csv\"\n",
         scenario);
     ASSERT_TRUE(box_.start_and_wait()) << box_.said();
     const std::string status = box_.wait_for("\"state\":\"tracking\"", std::chrono::seconds(20));
@@ -131,6 +138,77 @@ TEST_F(RobotCommands, TheCorrectionBringsTheAxisThroughTheTubeInTheToolsFrame) {
   EXPECT_LT((move - wanted(seen)).norm(), 0.05) << move.transpose();
   EXPECT_LT((move - wanted(world_->truth_of(60).T_sheet_tool)).norm(), 0.05) << move.transpose();
   EXPECT_GT(move.norm(), 1.0) << "there was something to correct";
+}
+
+TEST_F(RobotCommands, WhatTheRobotTellsOfItsPoseIsKeptBesideTheBoxs) {
+  // Place and angles and two joints: 1234.5678, -1, 960 mm; 30, 0, -0.00001 degrees; 10, -20
+  // degrees.
+  const Bytes tell = {16,   2,    88,   0,    18,   36,   0,    2,    0,    2,    0x00,
+                      0xBC, 0x61, 0x4E, 0xFF, 0xFF, 0xD8, 0xF0, 0x00, 0x92, 0x7C, 0x00,
+                      0x00, 0x2D, 0xC6, 0xC0, 0,    0,    0,    0,    0xFF, 0xFF, 0xFF,
+                      0xFF, 0x00, 0x0F, 0x42, 0x40, 0xFF, 0xE1, 0x7B, 0x80};
+  Bytes told;
+  for (int i = 0; i < 20 && (i == 0 || (told[3] == kRefused && told[5] == kMoving)); ++i) {
+    ASSERT_EQ(ask(line_, tell).size(), 5U);
+    told = ask_for_pose();
+    EXPECT_EQ(ask(line_, {3, 2, 88, 0, 2}), (Bytes{3, 4, 0, 0, 0, 0})) << "told of one pose alone";
+  }
+  ASSERT_EQ(told[3], 1) << "pose_result: confirmed; pose_reason: " << int{told[5]};
+  static_cast<void>(ask_for_pose());  // of which the robot tells nothing
+
+  // The registers 542 to 545, and bit 5 of 500.
+  const auto counts = [&] { return ask(line_, {3, 2, 30, 0, 4}); };
+  for (int i = 0; i < 100 && counts() != (Bytes{3, 8, 0, 0, 0, 1, 0, 0, 0, 0}); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(counts(), (Bytes{3, 8, 0, 0, 0, 1, 0, 0, 0, 0})) << "one written, none lost";
+  EXPECT_EQ(ask(line_, {3, 1, 500 - 256, 0, 1}).at(3) & 32, 32) << "health_valid";
+  const std::string text = box_.folder().read("pairs.csv");
+  EXPECT_NE(
+      text.find(",use,joint_1_deg,joint_2_deg\np1,1234.5678,-1.0000,960.0000,30.00000,0.00000,"
+                "-0.00001,"),
+      std::string::npos)
+      << text;
+  EXPECT_TRUE(text.ends_with(",1,10.00000,-20.00000\n")) << text;
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+  // Vision's part is what the robot was told.
+  std::array<char, 64> seen{};
+  std::snprintf(seen.data(), seen.size(), ",%.4f,%.4f,%.4f,", value(told, 424, 432, kLength),
+                value(told, 424, 434, kLength), value(told, 424, 436, kLength));
+  EXPECT_NE(text.find(seen.data()), std::string::npos) << text << seen.data();
+  const std::string status = box_.ask({"status"}).out;
+  EXPECT_NE(status.find("pairs.csv, 1 written"), std::string::npos) << status;
+}
+
+TEST_F(RobotCommands, ACorrectionByZonesIsToldForAnyTube) {
+  // Function 23: the tube to 640, the block zone, 16 registers from 650.
+  const auto ask_at = [&](std::uint8_t row, std::uint8_t column) {
+    Bytes told = ask(line_, {23, 2, 138, 0, 16, 2, 128, 0, 4, 8, 0, 0, 0, row, 0, 0, 0, column});
+    told.resize(34);
+    return told;
+  };
+  Bytes there = ask_at(40, 60);
+  for (int i = 0; i < 100 && there[3] == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    there = ask_at(40, 60);
+  }
+  const auto at = [](const Bytes& told, int address) { return value(told, 650, address, kLength); };
+  ASSERT_EQ(there[3], 1) << "zone_valid";
+  EXPECT_EQ(long_at(there, 6), 40U) << "the tube, sent back";
+  EXPECT_EQ(long_at(there, 10), 60U);
+  // Nearly all of what was seen; some sizes of a millimetre and less beside 0.1 mm are expected.
+  EXPECT_NEAR(at(there, 656), 0.8, 0.08);
+  EXPECT_NEAR(at(there, 658), -0.4, 0.04);
+  EXPECT_NEAR(at(there, 660), 1.2, 0.12);
+  EXPECT_NEAR(at(there, 662), 0.1, 0.02);
+  // Half a metre away there is less of it, and it is less sure; beyond the sheet nothing is known.
+  const Bytes away = ask_at(60, 60);
+  EXPECT_LT(at(away, 656), 0.7);
+  EXPECT_GT(at(away, 656), 0.05);
+  EXPECT_GT(at(away, 662), 0.2);
+  const Bytes beyond = ask_at(40, 200);
+  EXPECT_EQ(beyond[3], 0);
+  EXPECT_EQ(long_at(beyond, 14), 0x80000000U);
 }
 
 TEST_F(RobotCommands, EachResultStaysUntilItsBitIsCleared) {

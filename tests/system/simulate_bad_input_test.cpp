@@ -75,7 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
             "\"knock\" or \"lamp-out\" or \"lamps-dead\" or \"lamp-drift\" or \"vibration\" or "
             "\"cut\" or \"jump\" or \"emi\" or \"salt-pepper\" or \"frozen\" or "
             "\"other-camera\" or \"skip\" or \"pose-step\" or \"held\" or \"compressed\" or "
-            "\"jitter\""},
+            "\"jitter\" or \"blots\" or \"reflections\" or \"ghost\" or \"black-level\" or "
+            "\"covered\""},
         Mistake{"ParameterOfAnotherFault", "for_s = 0.02", "for_s = 0.02\nangle_deg = 0.1",
                 "s.toml:33: fault[0].angle_deg: unknown key, expected one of at_s, for_s, kind, "
                 "level"},

@@ -10,6 +10,7 @@
 #include "core/base/trigonometry.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
+#include "drivers/files/pairs_file.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
@@ -21,23 +22,6 @@ constexpr double kFarthest_mm = 100000.0;
 constexpr double kLargestTurn_deg = 360.0;
 constexpr double kLargestSigma_mm = 100.0;
 
-const std::vector<std::string_view> kColumns = {"name",
-                                                "robot_x_mm",
-                                                "robot_y_mm",
-                                                "robot_z_mm",
-                                                "robot_alpha_deg",
-                                                "robot_beta_deg",
-                                                "robot_gamma_deg",
-                                                "tool_x_mm",
-                                                "tool_y_mm",
-                                                "tool_z_mm",
-                                                "tool_alpha_deg",
-                                                "tool_beta_deg",
-                                                "tool_gamma_deg",
-                                                "sigma_x_mm",
-                                                "sigma_y_mm",
-                                                "sigma_z_mm",
-                                                "use"};
 constexpr std::size_t kRobot = 1;
 constexpr std::size_t kTool = 7;
 constexpr std::size_t kSigma = 13;
@@ -120,7 +104,8 @@ class RowReader {
 
   void fail(std::size_t at, const std::string& why) {
     if (problem_.empty()) {
-      problem_ = std::string(kColumns[at]) + ": " + drivers::in_quotes(cells_[at]) + ", " + why;
+      problem_ = std::string(drivers::pair_columns()[at]) + ": " + drivers::in_quotes(cells_[at]) +
+                 ", " + why;
     }
   }
 
@@ -156,7 +141,7 @@ bool read_base_pairs(const std::string& path, NamedPairs& pairs,
     return false;
   }
   drivers::CsvReader reader(text, path);
-  if (!reader.read_header(kColumns, messages)) {
+  if (!reader.read_header(drivers::pair_columns(), messages)) {
     return false;
   }
   const std::vector<std::size_t> joint_columns = joint_columns_of(reader);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "board/bench/calibrate/calibration_file.h"
+#include "core/calibration/picture_cover.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
 #include "drivers/settings/toml_writer.h"
@@ -18,14 +19,9 @@ using core::calibration::CalibrationRefusal;
 using core::calibration::CalibrationState;
 using core::calibration::Verdict;
 
-std::string_view use_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kBase: return "base calibration, pose and tracking";
-    case Verdict::kPose: return "pose and tracking; not base calibration";
-    case Verdict::kTracking: return "tracking and position correction only";
-  }
-  return "";
-}
+constexpr std::string_view kUseOfType =
+    "tracking and position correction only, of any camera of this type, once a docking has told "
+    "EFL";
 
 struct Parameter {
   const char* name;
@@ -62,6 +58,56 @@ void append_correlation(std::string& text, const CalibrationOutcome& outcome) {
                  kParameters[static_cast<std::size_t>(second)].name);
 }
 
+/// What the camera or the template has beside the model, and what one view leaves open.
+void append_misfits(std::string& text, const CalibrationData& data, const CalibrationState& state,
+                    const CalibrationOutcome& outcome) {
+  if (outcome.patterned) {
+    drivers::print(
+        text,
+        "                       they hang together: %.3f px RMS of a pattern, %.1f times "
+        "what noise leaves\n",
+        outcome.pattern.rms_px, outcome.pattern.ratio);
+  }
+  constexpr double kWorthTelling = 0.2;  // of the picture
+  const auto part =
+      core::calibration::uncovered_part(data, state.camera, outcome.fit.camera_covariance);
+  if (part.share > kWorthTelling) {
+    drivers::print(text,
+                   "  without a dot        %.0f %% of the picture, around (%.0f, %.0f): the model "
+                   "alone tells the map there, to %.3f px RMS\n",
+                   100.0 * part.share, part.u_px, part.v_px, part.rms_px);
+  }
+  if (outcome.assumed) {
+    drivers::print(
+        text,
+        "  not known            c_u, c_v, h_sx: one view does not tell them; taken as %.1f, "
+        "%.1f px and %.2f, their doubt is in the above\n",
+        state.camera(2), state.camera(3), state.camera(1));
+  }
+  if (outcome.freed.stage_axis) {
+    const double tip =
+        std::acos(std::clamp(state.stage_axis.dot(state.stage.R_camera_target.col(2)), -1.0, 1.0));
+    drivers::print(text, "  stage                stands %.3f deg off the template's normal\n",
+                   tip * 57.29577951308232);
+  }
+  if (outcome.freed.bow) {
+    drivers::print(
+        text,
+        "  template             is not flat: its edges stand %.3f mm (along) and %.3f mm "
+        "(across) off its middle, its corners %.3f mm twisted\n",
+        state.bow_mm(0), state.bow_mm(2), state.bow_mm(1));
+  }
+  if (outcome.tangential.map.rms_px > 0.0) {
+    drivers::print(
+        text,
+        "  lens                 %s tangential distortion, p1 %.6f, p2 %.6f per mm, which "
+        "the settings cannot hold: map off by %.3f px RMS, %.3f px at worst\n",
+        outcome.tangential.rival ? "may, in place of the stage, have" : "has",
+        outcome.tangential.p.x(), outcome.tangential.p.y(), outcome.tangential.map.rms_px,
+        outcome.tangential.map.worst_px);
+  }
+}
+
 }  // namespace
 
 core::CameraSettings calibrated(const core::CameraSettings& known,
@@ -75,17 +121,27 @@ core::CameraSettings calibrated(const core::CameraSettings& known,
   return camera;
 }
 
+std::string_view use_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kBase: return "base calibration, pose and tracking";
+    case Verdict::kPose: return "pose and tracking; not base calibration";
+    case Verdict::kTracking: return "tracking and position correction only";
+  }
+  return "";
+}
+
 std::string_view explain(CalibrationRefusal refusal) {
   switch (refusal) {
     case CalibrationRefusal::kNone: return "";
     case CalibrationRefusal::kOneView:
-      return "one view leaves EFL and distance open, expected two heights of a stage or several "
-             "tilted poses";
+      return "one view leaves EFL and distance open, or centre and scale where it is tilted; "
+             "expected two heights of a stage or several tilted poses";
     case CalibrationRefusal::kEqualHeights:
       return "all height_mm are equal, expected heights that differ";
     case CalibrationRefusal::kNoStart:
-      return "EFL or a distance comes out negative: heights swapped, or dots in another order than "
-             "the template's; expected a larger height_mm where the dots look smaller";
+      return "EFL or a distance comes out negative: heights swapped or in other units, or dots in "
+             "another order than the template's; expected a larger height_mm where the dots look "
+             "smaller";
     case CalibrationRefusal::kNoFit:
       return "the fit does not come to rest: the views contradict each other";
     case CalibrationRefusal::kUndetermined:
@@ -100,6 +156,14 @@ std::string_view explain(CalibrationRefusal refusal) {
     case CalibrationRefusal::kPoorFit:
       return "the dots are not where this camera would show such a template (more than 1 px RMS): "
              "wrong spacing or heights, a bowed template, a lens moved between views";
+    case CalibrationRefusal::kPattern:
+      return "the dots' errors hang together and are no noise: a bowed or wrongly printed "
+             "template, "
+             "heights misread, a lens or a template that moved between views";
+    case CalibrationRefusal::kOtherLens:
+      return "EFL is not that of lens_mm to a fifth, or the picture would reach over 60 degrees "
+             "off "
+             "the axis: heights and spacing in different units, or another lens";
     case CalibrationRefusal::kManyOutliers:
       return "more than a tenth of the dots lie off: another template, or dots hidden";
   }
@@ -107,9 +171,11 @@ std::string_view explain(CalibrationRefusal refusal) {
 }
 
 std::string camera_text(const CalibrationData& data, const CalibrationState& state,
-                        const CalibrationOutcome& outcome) {
+                        const CalibrationOutcome& outcome, std::string_view more,
+                        std::string_view next, bool type) {
   std::string text;
-  drivers::print(text, "camera from %d views, %d dots", data.views.size(), outcome.fit.dots);
+  drivers::print(text, "camera from %d view%s, %d dots", data.views.size(),
+                 data.views.size() == 1 ? "" : "s", outcome.fit.dots);
   if (outcome.left_out > 0) {
     drivers::print(text, " (%d that lie off are left out)", outcome.left_out);
   }
@@ -125,37 +191,29 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
   drivers::print(text,
                  "  residuals            %.4f px RMS of a dot, %.4f px sigma of a coordinate\n",
                  outcome.fit.rms_px, outcome.fit.sigma_px);
-  if (outcome.freed.stage_axis) {
-    const double tip =
-        std::acos(std::clamp(state.stage_axis.dot(state.stage.R_camera_target.col(2)), -1.0, 1.0));
-    drivers::print(text, "  stage                stands %.3f deg off the template's normal\n",
-                   tip * 57.29577951308232);
-  }
+  append_misfits(text, data, state, outcome);
   drivers::print(
       text,
       "  map uncertainty      %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, "
       "%.0f)\n",
       outcome.map.rms_px, outcome.map.worst_px, outcome.map.worst_u_px, outcome.map.worst_v_px);
+  text += more;
   if (outcome.refusal == CalibrationRefusal::kNone) {
-    const std::string_view use = use_of(outcome.verdict);
+    const std::string_view use = type ? kUseOfType : use_of(outcome.verdict);
     drivers::print(text, "  good for             %.*s\n", static_cast<int>(use.size()), use.data());
   }
-  if (outcome.verdict != Verdict::kBase || outcome.refusal != CalibrationRefusal::kNone) {
-    drivers::print(text,
-                   "  to better it         a view with dots around (%.0f, %.0f), tilted by 20 to "
-                   "40 deg another way\n",
-                   outcome.map.worst_u_px, outcome.map.worst_v_px);
-  }
+  text += next;
   return text;
 }
 
 std::string camera_settings_text(const core::CameraSettings& camera,
                                  const CalibrationOutcome& outcome,
-                                 const drivers::CalibrationQuality& device) {
+                                 const drivers::CalibrationQuality& device, bool type) {
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   drivers::write_camera(toml, camera);
-  return with_quality(toml.take(), {"camera_quality", outcome.fit.camera_covariance,
-                                    use_of(outcome.verdict), device.serial, device.model});
+  return with_quality(toml.take(),
+                      {"camera_quality", outcome.fit.camera_covariance,
+                       type ? kUseOfType : use_of(outcome.verdict), device.serial, device.model});
 }
 
 }  // namespace tubesight::board

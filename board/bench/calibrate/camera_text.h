@@ -13,19 +13,26 @@ namespace tubesight::board {
 [[nodiscard]] core::CameraSettings calibrated(const core::CameraSettings& known,
                                               const core::calibration::CameraValues& values);
 
+/// What a calibration is good for, in words.
+[[nodiscard]] std::string_view use_of(core::calibration::Verdict verdict);
+
 /// Why there is no calibration, and what to do about it, in one line without a name.
 [[nodiscard]] std::string_view explain(core::calibration::CalibrationRefusal refusal);
 
 /// Parameters with their standard deviations, what the residuals are, what the map is worth, the
-/// verdict, and what would better it: lines for a person.
+/// verdict: lines for a person. `more` stands before the verdict, `next`, which view to take,
+/// behind. `type`: of all cameras of the type.
 [[nodiscard]] std::string camera_text(const core::calibration::CalibrationData& data,
                                       const core::calibration::CalibrationState& state,
-                                      const core::calibration::CalibrationOutcome& outcome);
+                                      const core::calibration::CalibrationOutcome& outcome,
+                                      std::string_view more, std::string_view next,
+                                      bool type = false);
 
 /// `[camera]` and `[camera_quality]` as a settings file; `device` says which camera it is, where
 /// that is known.
 [[nodiscard]] std::string camera_settings_text(const core::CameraSettings& camera,
                                                const core::calibration::CalibrationOutcome& outcome,
-                                               const drivers::CalibrationQuality& device);
+                                               const drivers::CalibrationQuality& device,
+                                               bool type = false);
 
 }  // namespace tubesight::board

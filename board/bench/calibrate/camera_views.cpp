@@ -1,15 +1,15 @@
 #include "board/bench/calibrate/camera_views.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <utility>
 
+#include "board/bench/calibrate/points_file.h"
+#include "board/bench/output/progress_line.h"
 #include "core/picture/averaged_picture.h"
-#include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
-#include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
 namespace {
@@ -17,12 +17,8 @@ namespace {
 using core::calibration::CalibrationData;
 using core::calibration::CalibrationView;
 using core::calibration::OrderRefusal;
-using core::calibration::SeenDot;
 using core::calibration::Target;
 using core::calibration::TargetLattice;
-
-// A start needs more, a fit many more; fewer are a wrong file.
-constexpr std::int32_t kLeastPoints = 12;
 
 Target target_of(const drivers::TargetSettings& settings) {
   Target target;
@@ -80,10 +76,14 @@ ExitStatus CameraViews::fail(ExitStatus status, std::string message) {
 
 ExitStatus CameraViews::read(CalibrationData& data) {
   data.sensor = core::calibration::sensor_of(file_.camera);
+  data.lens_mm = file_.target.lens_mm;
   data.dot_radius_mm = 0.5 * target_.dot_mm;
   data.dots.clear();
   data.views.clear();
+  ProgressLine progress(stderr, standard_error_is_terminal());
   for (const drivers::ViewSettings& view : file_.views) {
+    progress.update(ProgressLine::Clock::now(), "view " + std::to_string(data.views.size() + 1) +
+                                                    " of " + std::to_string(file_.views.size()));
     CalibrationView next;
     next.first = data.dots.size();
     next.staged = view.staged;
@@ -113,6 +113,7 @@ ExitStatus CameraViews::read_images(const drivers::ViewSettings& view, Calibrati
     return fail(ExitStatus::kWrongInput,
                 name + ": target.dot_mm is 0, expected a diameter where dots are to be found");
   }
+  thumbs_.push_back(make_thumb(name, read.picture));
   const auto refusal = finder_->find(read.picture, {}, scratch_, *found_);
   if (refusal != core::detection::FinderRefusal::kNone) {
     return fail(ExitStatus::kJobFailed, name + ": no template: no lattice of dots is found");
@@ -125,47 +126,12 @@ ExitStatus CameraViews::read_images(const drivers::ViewSettings& view, Calibrati
 }
 
 ExitStatus CameraViews::read_points(const drivers::ViewSettings& view, CalibrationData& data) {
-  std::string text;
-  std::string reason;
-  drivers::DiskFiles files;
-  if (!files.read(view.points, text, reason)) {
-    return fail(ExitStatus::kWrongInput, view.points + ": " + reason);
+  std::string wrong = board::read_points(view.points, data.dots);
+  if (!wrong.empty()) {
+    return fail(ExitStatus::kWrongInput, std::move(wrong));
   }
-  drivers::Messages messages;
-  drivers::CsvReader csv(text, view.points);
-  if (!csv.read_header({"x_mm", "y_mm", "u_px", "v_px"}, messages)) {
-    return fail(ExitStatus::kWrongInput, messages.front());
-  }
-  std::int32_t count = 0;
-  while (csv.next(messages)) {
-    constexpr std::int32_t kDigits = 9;
-    std::array<std::int64_t, 4> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!drivers::parse_decimal(csv.cells()[i], kDigits, values[i])) {
-        return fail(ExitStatus::kWrongInput, csv.place() + drivers::in_quotes(csv.cells()[i]) +
-                                                 ", expected a number with up to 9 decimals");
-      }
-    }
-    constexpr double kUnit = 1e-9;
-    SeenDot dot;
-    dot.place_mm << kUnit * static_cast<double>(values[0]), kUnit * static_cast<double>(values[1]),
-        0.0;
-    dot.seen_px << kUnit * static_cast<double>(values[2]), kUnit * static_cast<double>(values[3]);
-    if (!data.dots.try_push_back(dot)) {
-      return fail(ExitStatus::kWrongInput, csv.place() + "more than " +
-                                               std::to_string(core::calibration::kMaxDots) +
-                                               " points, expected at most that many");
-    }
-    ++count;
-  }
-  if (!messages.empty()) {
-    return fail(ExitStatus::kWrongInput, messages.front());
-  }
-  return count >= kLeastPoints
-             ? ExitStatus::kDone
-             : fail(ExitStatus::kWrongInput, view.points + ": " + std::to_string(count) +
-                                                 " points, expected at least " +
-                                                 std::to_string(kLeastPoints));
+  thumbs_.push_back({view.points, 0, 0, {}});
+  return ExitStatus::kDone;
 }
 
 }  // namespace tubesight::board

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "board/bench/calibrate/camera_picture.h"
 #include "board/bench/output/exit_status.h"
 #include "board/bench/output/still_averager.h"
 #include "core/calibration/calibration_data.h"
@@ -24,6 +25,8 @@ class CameraViews {
   [[nodiscard]] ExitStatus read(core::calibration::CalibrationData& data);
 
   [[nodiscard]] const std::string& message() const { return message_; }
+  /// Each view as it was seen.
+  [[nodiscard]] const std::vector<ViewThumb>& thumbs() const { return thumbs_; }
 
  private:
   ExitStatus read_images(const drivers::ViewSettings& view,
@@ -40,6 +43,7 @@ class CameraViews {
       std::make_unique<core::detection::LatticeFinder>();
   std::unique_ptr<core::detection::FoundLattice> found_ =
       std::make_unique<core::detection::FoundLattice>();
+  std::vector<ViewThumb> thumbs_;
   std::string message_;
 };
 

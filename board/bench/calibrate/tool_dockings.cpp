@@ -1,6 +1,10 @@
 #include "board/bench/calibrate/tool_dockings.h"
 
+#include <array>
+
 #include "board/bench/pose/pose_words.h"
+#include "core/camera/camera_setup.h"
+#include "core/pose/calibration_uncertainty.h"
 #include "drivers/files/csv_reader.h"
 
 namespace tubesight::board {
@@ -46,7 +50,20 @@ bool DockedPoses::open(const core::SessionSettings& settings, std::string& messa
   return true;
 }
 
-DockedPose DockedPoses::find(const DockedPictures& docking, const PictureStarts& starts) {
+bool DockedPoses::take_focal_length(double focal_length_mm) {
+  core::CameraSettings camera = model_.camera_settings;
+  camera.focal_length_mm = focal_length_mm;
+  const auto made = core::camera::make_camera_model<double>(camera);
+  if (!made) {
+    return false;
+  }
+  model_.camera_settings = camera;
+  model_.camera = *made;
+  return true;
+}
+
+DockedPose DockedPoses::find(const DockedPictures& docking, const PictureStarts& starts,
+                             double most_rms_px) {
   DockedPose result;
   const StillsRead read = averager_->read(stills_of(docking.pictures, {}));
   if (read.status != ExitStatus::kDone) {
@@ -54,20 +71,39 @@ DockedPose DockedPoses::find(const DockedPictures& docking, const PictureStarts&
     result.message = read.message;
     return result;
   }
-  const core::pose::PictureOutcome outcome =
-      core::pose::estimate_from_picture(read.picture, model_, map_, starts, {}, *workspace_);
-  if (!outcome.has_value()) {
+  average_ = read.picture;
+  core::pose::PictureOptions options;
+  options.pose.max_rms_px = most_rms_px;
+  outcome_ =
+      core::pose::estimate_from_picture(read.picture, model_, map_, starts, options, *workspace_);
+  if (!outcome_.has_value()) {
     result.status = ExitStatus::kJobFailed;
-    result.message = docking.pictures.front() + ": " + explain(outcome, starts);
+    result.message = docking.pictures.front() + ": " + explain(outcome_, starts);
     return result;
   }
-  const core::pose::PoseEstimate& estimate = outcome.pose.estimate;
+  const core::pose::PoseEstimate& estimate = outcome_.pose.estimate;
   result.T_sheet_camera = {estimate.T_sheet_tool.rotation(),
                            estimate.T_sheet_tool.translation_mm()};
   result.covariance = estimate.covariance;
   result.tubes = estimate.tubes;
   result.rms_px = estimate.rms_px;
   return result;
+}
+
+core::calibration::DockingFocal DockedPoses::focal() {
+  return core::calibration::focal_by_docking(model_, workspace_->rims, outcome_.pose.estimate,
+                                             workspace_->pose);
+}
+
+bool DockedPoses::by_focal(core::math::Vector6d& slope) {
+  constexpr std::array<double, 6> kSteps = {0.01, 0.0, 0.0, 0.0, 0.0, 0.0};  // mm of EFL
+  const auto by_camera = core::pose::camera_sensitivity(
+      model_, workspace_->rims, outcome_.pose.estimate, kSteps, {}, workspace_->pose);
+  if (!by_camera) {
+    return false;
+  }
+  slope = by_camera->col(0);
+  return true;
 }
 
 }  // namespace tubesight::board

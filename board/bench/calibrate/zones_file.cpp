@@ -1,26 +1,14 @@
 #include "board/bench/calibrate/zones_file.h"
 
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <string_view>
 
 #include "board/bench/output/csv_cells.h"
-#include "drivers/files/csv_reader.h"
-#include "drivers/files/decimal.h"
+#include "drivers/files/zones_file.h"
 #include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
-namespace {
 
 using core::calibration::ZonePoint;
-
-const std::vector<std::string_view> kColumns = {"sheet_x_mm", "sheet_y_mm", "dx_mm",
-                                                "dy_mm",      "dz_mm",      "sigma_mm"};
-constexpr std::array<double, 6> kMost = {100000.0, 100000.0, 100.0, 100.0, 100.0, 100.0};
-
-}  // namespace
 
 bool read_zones(const std::string& path, core::calibration::ZonePoints& points,
                 std::vector<std::string>& messages) {
@@ -32,39 +20,17 @@ bool read_zones(const std::string& path, core::calibration::ZonePoints& points,
     messages.push_back(path + ": " + message);
     return false;
   }
-  drivers::CsvReader reader(text, path);
-  const std::size_t before = messages.size();
-  if (!reader.read_header(kColumns, messages)) {
-    return false;
-  }
-  while (reader.next(messages) && messages.size() < drivers::CsvReader::kMostMessages) {
-    std::array<double, 6> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      constexpr std::int32_t kDigits = 9;
-      std::int64_t value = 0;
-      const std::string& cell = reader.cells()[i];
-      const bool number = drivers::parse_decimal(cell, kDigits, value);
-      values[i] = 1e-9 * static_cast<double>(value);
-      if (!number || std::abs(values[i]) > kMost[i] || (i == 5 && !(values[i] > 0.0))) {
-        messages.push_back(reader.place() + std::string(kColumns[i]) + ": " +
-                           drivers::in_quotes(cell) + ", expected a number up to " +
-                           drivers::number_text(kMost[i]) + (i == 5 ? " and above 0" : "") +
-                           " with at most 9 decimals");
-        break;
-      }
-    }
+  std::vector<drivers::ZoneRow> rows;
+  const bool good = drivers::read_zone_rows(
+      text, path, static_cast<std::size_t>(core::calibration::kMaxZones), rows, messages);
+  for (const drivers::ZoneRow& row : rows) {
     ZonePoint point;
-    point.at_mm << values[0], values[1];
-    point.off_mm << values[2], values[3], values[4];
-    point.sigma_mm = values[5];
-    if (!points.try_push_back(point)) {
-      messages.push_back(reader.place() + "more than " +
-                         std::to_string(core::calibration::kMaxZones) +
-                         " corrections, expected at most that many");
-      return false;
-    }
+    point.at_mm << row.at_mm[0], row.at_mm[1];
+    point.off_mm << row.off_mm[0], row.off_mm[1], row.off_mm[2];
+    point.sigma_mm = row.sigma_mm;
+    static_cast<void>(points.try_push_back(point));  // as many as were read have room
   }
-  return messages.size() == before;
+  return good;
 }
 
 std::string zones_text(const core::calibration::ZonePoints& points) {

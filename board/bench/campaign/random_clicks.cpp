@@ -17,47 +17,12 @@ using core::rendering::TubeImage;
 using core::tubesheet::center_mm;
 using drivers::Scenario;
 
-/// A tube-end that the operator can see.
-struct Visible {
-  TubeAddress address;
-  TubeImage image;
-  double off_px = 0.0;  ///< from the optimum point
-};
-
 bool in_window(const std::array<std::int32_t, 4>& window, const TubeImage& image) {
   const auto& [left, top, right, bottom] = window;
   return image.ellipse_px[0] - image.half_px[0] > left &&
          image.ellipse_px[0] + image.half_px[0] < right &&
          image.ellipse_px[1] - image.half_px[1] > top &&
          image.ellipse_px[1] + image.half_px[1] < bottom;
-}
-
-// All usable tube-ends in the window, nearest to the optimum point first.
-std::vector<Visible> list_visible(const Truth& truth, const Scenario& scenario) {
-  const auto T_sheet_tool = core::kinematics::transform_of(scenario.from);
-  const auto& start = scenario.told.start;
-  const auto plugged = scenario.told.tubesheet.plugged.view();
-  std::vector<Visible> visible;
-  for (std::int32_t row = 0; row <= kLastAddress; ++row) {
-    for (std::int32_t column = 0; column <= kLastAddress; ++column) {
-      const TubeAddress address{row, column};
-      if (truth.tube_ends().at(address).kind != TubeEndKind::kOpen ||
-          std::find(plugged.begin(), plugged.end(), address) != plugged.end()) {
-        continue;
-      }
-      const auto image = truth.tube_image(T_sheet_tool, address);
-      if (image && image->rim_in_frame >= 1.0 && image->occluded <= 0.0 &&
-          in_window(start.window_px, *image) && image->half_px[1] > 8.0) {
-        const double off = std::hypot(image->center_px[0] - start.optimum_px[0],
-                                      image->center_px[1] - start.optimum_px[1]);
-        visible.push_back({address, *image, off});
-      }
-    }
-  }
-  std::sort(visible.begin(), visible.end(), [](const Visible& a, const Visible& b) {
-    return a.off_px != b.off_px ? a.off_px < b.off_px : a.address < b.address;
-  });
-  return visible;
 }
 
 // The first three that span a triangle; an angle of 30 degrees at the first is enough.
@@ -83,11 +48,38 @@ bool choose_three(const core::TubesheetSettings& sheet, const std::vector<Visibl
 
 }  // namespace
 
-bool draw_clicks(RandomSource& random, const Truth& truth, Scenario& scenario) {
+std::vector<Visible> list_visible(const Truth& truth, const Pose& T_sheet_tool,
+                                  const Scenario& scenario) {
+  const auto& start = scenario.told.start;
+  const auto plugged = scenario.told.tubesheet.plugged.view();
+  std::vector<Visible> visible;
+  for (std::int32_t row = 0; row <= kLastAddress; ++row) {
+    for (std::int32_t column = 0; column <= kLastAddress; ++column) {
+      const TubeAddress address{row, column};
+      if (truth.tube_ends().at(address).kind != TubeEndKind::kOpen ||
+          std::find(plugged.begin(), plugged.end(), address) != plugged.end()) {
+        continue;
+      }
+      const auto image = truth.tube_image(T_sheet_tool, address);
+      if (image && image->rim_in_frame >= 1.0 && image->occluded <= 0.0 &&
+          in_window(start.window_px, *image) && image->half_px[1] > 8.0) {
+        const double off = std::hypot(image->center_px[0] - start.optimum_px[0],
+                                      image->center_px[1] - start.optimum_px[1]);
+        visible.push_back({address, *image, off});
+      }
+    }
+  }
+  std::sort(visible.begin(), visible.end(), [](const Visible& a, const Visible& b) {
+    return a.off_px != b.off_px ? a.off_px < b.off_px : a.address < b.address;
+  });
+  return visible;
+}
+
+bool draw_clicks(RandomSource& random, const Truth& truth, const Pose& T_sheet_tool,
+                 const Scenario& scenario, Clicks& clicks) {
   std::array<Visible, 3> chosen{};
-  auto& start = scenario.told.start;
-  start.tubes.clear();
-  const auto visible = list_visible(truth, scenario);
+  clicks.clear();
+  const auto visible = list_visible(truth, T_sheet_tool, scenario);
   if (visible.empty() || !choose_three(scenario.scene.sheet, visible, chosen)) {
     return false;
   }
@@ -99,7 +91,7 @@ bool draw_clicks(RandomSource& random, const Truth& truth, Scenario& scenario) {
     point.address = tube.address;
     point.at_px = {tube.image.ellipse_px[0] + share * tube.image.half_px[0] * std::cos(turn),
                    tube.image.ellipse_px[1] + share * tube.image.half_px[1] * std::sin(turn)};
-    static_cast<void>(start.tubes.try_push_back(point));
+    static_cast<void>(clicks.try_push_back(point));
   }
   return true;
 }

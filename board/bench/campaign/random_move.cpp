@@ -46,8 +46,11 @@ void MoveMaker::make(std::uint64_t seed, std::int64_t move, drivers::Scenario& s
       continue;
     }
     draw_source_faults(seed, move, stratum, scenario);
+    draw_spoilt_picture(seed, move, stratum, scenario);
     leave_out_faults_of_fields(scenario);
-    if (draw_clicks(clicks, *truth_, scenario)) {
+    if (draw_clicks(clicks, *truth_, core::kinematics::transform_of(scenario.from), scenario,
+                    scenario.told.start.tubes)) {
+      draw_wrong_starts(stratum, seed, move, *truth_, scenario);
       return;
     }
   }

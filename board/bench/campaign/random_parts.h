@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "board/bench/campaign/random_source.h"
 #include "board/bench/campaign/stratum.h"
@@ -68,11 +69,42 @@ void draw_deceptions(const Stratum& stratum, std::uint64_t seed, std::int64_t mo
 void draw_source_faults(std::uint64_t seed, std::int64_t move, const Stratum& stratum,
                         drivers::Scenario& scenario);
 
-/// Draws an operator's three clicks into the first field: open tube-ends wholly in view near the
-/// optimum point, not in one line, each up to 60 % of the tube-end's radius off its middle.
+/// Draws what spoils the picture, in the place of the faults that are drawn already and in a part
+/// of the moves of their group: blots, reflections, specks, a ghost, a raised black level or a
+/// cover, half of them from the first field on; in the group of lamps nothing but the camera's own
+/// LEDs. By random numbers of its own. Needs light and path.
+void draw_spoilt_picture(std::uint64_t seed, std::int64_t move, const Stratum& stratum,
+                         drivers::Scenario& scenario);
+
+using Pose = core::Transform<core::frames::Sheet, core::frames::Tool>;
+using Clicks = decltype(core::StartSettings::tubes);
+
+/// A tube-end that the operator can see.
+struct Visible {
+  core::TubeAddress address;
+  core::rendering::TubeImage image;
+  double off_px = 0.0;  ///< from the optimum point
+};
+
+/// All open tube-ends that stand wholly in the window when the tool is at a place, but for those
+/// that the box is told are plugged; nearest to the optimum point first.
+[[nodiscard]] std::vector<Visible> list_visible(const core::rendering::Truth& truth,
+                                                const Pose& T_sheet_tool,
+                                                const drivers::Scenario& scenario);
+
+/// Draws an operator's three clicks into a field: open tube-ends wholly in view near the optimum
+/// point, not in one line, each up to 60 % of the tube-end's radius off its middle.
 ///
 /// False when the view does not show three such tube-ends.
 [[nodiscard]] bool draw_clicks(RandomSource& random, const core::rendering::Truth& truth,
-                               drivers::Scenario& scenario);
+                               const Pose& T_sheet_tool, const drivers::Scenario& scenario,
+                               Clicks& clicks);
+
+/// Draws, in the place of the faults of the group of jumps, an operator who errs by one to three
+/// steps: in the first start, where six tube-ends or more in view then stand where the settings
+/// list none; or in a second start against the track. Each by random numbers of its own. Needs all
+/// else.
+void draw_wrong_starts(const Stratum& stratum, std::uint64_t seed, std::int64_t move,
+                       const core::rendering::Truth& truth, drivers::Scenario& scenario);
 
 }  // namespace tubesight::board::campaign

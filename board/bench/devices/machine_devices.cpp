@@ -25,24 +25,33 @@ std::string cameras_text(const std::vector<drivers::v4l2::CameraInfo>& cameras) 
   if (cameras.empty()) {
     return "no cameras\n";
   }
-  std::string text = "cameras, by the device to write into [source]:\n";
+  std::string text = "cameras, by the device to write into [source] of kind \"v4l2\":\n";
   for (const drivers::v4l2::CameraInfo& camera : cameras) {
     const std::string name = camera.name();
     text += "  " + name + "\n      " + camera.node;
-    if (camera.busy) {
-      text += ", cannot be opened: busy, or of another user\n";
+    if (!camera.refused.empty()) {
+      text += ", cannot be opened: " + camera.refused + "\n";
       continue;
     }
     text += ", " + camera.card + ", driver " + camera.driver + ", bus:" + camera.bus + "\n";
+    text += camera.taken ? "      busy: another program takes its pictures\n" : "";
     for (const std::string& path : {camera.by_path, camera.by_id}) {
       text += path.empty() || path == name ? "" : "      also " + path + "\n";
     }
     text += camera.serial.empty() ? "      says no serial number\n" : "";
+    text += camera.alone || camera.serial.empty()
+                ? ""
+                : "      not named by its serial number, which another one has, too\n";
     text += calibration_text(camera.serial, camera.driver + " " + camera.card);
     text += camera.inputs.empty() ? "" : "      inputs: " + list_of(camera.inputs) + "\n";
+    text += camera.standards.empty()
+                ? ""
+                : "      standards: " + list_of(camera.standards) +
+                      (camera.standard.empty() ? "" : "; set to " + camera.standard) + "\n";
     for (const std::string& format : camera.formats) {
       text += "      " + format + "\n";
     }
+    text += camera.controls.empty() ? "" : "      controls: " + list_of(camera.controls) + "\n";
   }
   return text;
 }
@@ -51,7 +60,7 @@ std::string network_cameras_text(const std::vector<drivers::aravis::CameraInfo>&
   if (cameras.empty()) {
     return "no network cameras\n";
   }
-  std::string text = "network cameras, by the device to write into [source]:\n";
+  std::string text = "network cameras, by the device to write into [source] of kind \"aravis\":\n";
   for (const drivers::aravis::CameraInfo& camera : cameras) {
     // What is plugged into USB has no address of a network.
     const bool of_network = camera.protocol == "GigEVision";

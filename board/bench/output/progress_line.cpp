@@ -13,24 +13,42 @@ constexpr std::chrono::milliseconds kBetween{250};
 
 }  // namespace
 
-void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time) {
+bool ProgressLine::due(Clock::time_point now) {
   if (!shown_) {
-    return;
+    return false;
   }
   if (!next_) {
     next_ = now + kBeforeFirst;
   }
   if (now < *next_) {
-    return;
+    return false;
   }
   next_ = now + kBetween;
+  return true;
+}
+
+void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time) {
+  if (!due(now)) {
+    return;
+  }
   std::array<char, 80> text{};
   const double seconds = std::chrono::duration<double>(time).count();
   std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
                 static_cast<long long>(fields), seconds);
+  write(text.data());
+}
+
+void ProgressLine::update(Clock::time_point now, std::string_view words) {
+  if (due(now)) {
+    write(words.substr(0, 79));
+  }
+}
+
+void ProgressLine::write(std::string_view words) {
   // Padded to what stood there, so that a shorter text leaves nothing of a longer one.
-  const int count = std::fprintf(stream_, "\r%-*s",
-                                 static_cast<int>(std::min<std::size_t>(width_, 79)), text.data());
+  const int count =
+      std::fprintf(stream_, "\r%-*.*s", static_cast<int>(std::min<std::size_t>(width_, 79)),
+                   static_cast<int>(words.size()), words.data());
   std::fflush(stream_);
   width_ = count > 1 ? static_cast<std::size_t>(count - 1) : 0;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <string_view>
 
 #include "core/base/field.h"
 
@@ -25,11 +26,16 @@ class ProgressLine {
   /// Says that `fields` fields up to the recorded time `time` are done. Writes four times a second
   /// at most, for the first time after half a second: short jobs show nothing.
   void update(Clock::time_point now, std::int64_t fields, core::FieldTime time);
+  /// The same of any job, in its own words.
+  void update(Clock::time_point now, std::string_view words);
 
   /// Erases the line, before other text goes to the terminal.
   void erase();
 
  private:
+  [[nodiscard]] bool due(Clock::time_point now);
+  void write(std::string_view words);
+
   std::FILE* stream_;
   bool shown_;
   std::size_t width_ = 0;  ///< characters that stand on the terminal

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "board/bench/cold_start/cold_start.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/pose_rows.h"
 #include "board/bench/output/still_averager.h"
@@ -106,16 +107,10 @@ class PoseRun {
   bool take_starts() {
     std::string message;
     if (options_.start.empty()) {
-      if (!file_.has_start) {
-        tell(options_.session +
-             ": start: no tube-ends are named, expected [start] here or in an included file, or "
-             "--start");
-        return false;
-      }
       for (const core::StartPoint& point : settings().start.tubes) {
         starts_.push_back({point.address, point.at_px[0], point.at_px[1]});
       }
-      return true;
+      return take_cold();
     }
     if (!parse_starts(options_.start, starts_, message)) {
       tell(message);
@@ -125,6 +120,40 @@ class PoseRun {
       tell("--start: " + message);
       return false;
     }
+    return take_cold();
+  }
+
+  /// What fewer than three places need: the lattice found cold.
+  bool take_cold() {
+    if (starts_.size() >= kWholeStart) {
+      return true;
+    }
+    if (options_.only_start) {
+      tell("--only-start: " + std::to_string(starts_.size()) +
+           " tube-ends are named, expected three at least");
+      return false;
+    }
+    if (file_.heading_deg && !file_.has_tool) {
+      tell(options_.session + ": tool: the table is missing, expected it for start.heading_deg");
+      return false;
+    }
+    cold_ = std::make_unique<ColdStart>(settings(), file_.has_tool, file_.heading_deg);
+    return !starts_.empty() || take_relative();
+  }
+
+  /// Without any address: the lattice around the middle tube takes the sheet's place.
+  bool take_relative() {
+    if (!options_.correct.empty()) {
+      tell("--correct: no tube-end is named, expected an address in [start] or --start");
+      return false;
+    }
+    const auto model =
+        core::pose::make_pose_model(settings().camera, settings().tool, cold_->relative_sheet());
+    if (!model || !map_.assign(cold_->relative_sheet())) {
+      tell(options_.session + ": no pose can be computed with these settings together");
+      return false;
+    }
+    model_ = *model;
     return true;
   }
 
@@ -134,7 +163,10 @@ class PoseRun {
     // for the frames asked for are those of the first of them, whatever the recording tells.
     const StartFrame where =
         options_.start.empty() ? StartFrame{0, true} : StartFrame{frames_.first, false};
-    tubes_.emplace(settings(), StillClicks{starts_, where, options_.only_start});
+    tubes_.emplace(settings(), StillClicks{starts_, where, options_.only_start}, cold_.get());
+    if (starts_.empty()) {
+      return true;  // each still by itself
+    }
     // Of an average the first frame alone: the further ones agree with it.
     const auto tracked = std::find_if(stills_.begin(), stills_.end(), [this](const Still& still) {
       return !tubes_->was_clicked(still) && !(options_.average && still.frame > frames_.first);
@@ -163,6 +195,7 @@ class PoseRun {
     calibrations_.camera_sigma = file_.camera_quality.sigma;
     calibrations_.tool_sigma = file_.tool_quality.sigma;
     calibrations_.camera_correlation = matrix_of(file_.camera_quality.correlation);
+    calibrations_.focal_length_correlation = file_.tool_quality.focal_length_correlation;
     calibrations_.tool_correlation = matrix_of(file_.tool_quality.correlation);
     correction_.limit_mm = options_.limit_mm;
     if (!options_.correct.empty() && (!parse_address(options_.correct, correction_.tube) ||
@@ -203,7 +236,7 @@ class PoseRun {
     std::string message = read.message;
     TubesFound tubes;
     if (status == ExitStatus::kDone) {
-      tubes = tubes_->find(stills);
+      tubes = find_tubes(stills, read.picture);
       status = tubes.status;
       message = tubes.message;
     }
@@ -225,9 +258,11 @@ class PoseRun {
         row.estimate = &outcome_.pose.estimate;
         row.covariance = outcome_.pose.estimate.covariance;
         add_calibrations(how.pose.rims, row);
-        row.has_tube = map_.state(outcome_.pose.estimate.nearest) != core::TubeState::kAbsent;
+        row.has_tube = !starts_.empty() &&
+                       map_.state(outcome_.pose.estimate.nearest) != core::TubeState::kAbsent;
         text_ += pose_text({row, outcome_, model_, map_, static_cast<std::int32_t>(stills.size()),
-                            read.frame_shift_px, read.field_shift_px, options_.total});
+                            read.frame_shift_px, read.field_shift_px, options_.total,
+                            middle_of(tubes.places)});
         if (!options_.correct.empty()) {
           text_ +=
               correction_text(core::verification::correct_position(
@@ -246,6 +281,35 @@ class PoseRun {
       tell(message);
     }
     return status == ExitStatus::kDone && row.estimate == nullptr ? ExitStatus::kJobFailed : status;
+  }
+
+  /// The tubes in stills of one pose; what one or two clicks do not tell, or none, the lattice
+  /// does.
+  TubesFound find_tubes(std::span<const Still> stills,
+                        const core::picture::AveragedPicture& picture) {
+    TubesFound tubes;
+    if (!starts_.empty()) {
+      tubes = tubes_->find(stills);
+    }
+    if (tubes.status != ExitStatus::kDone || cold_ == nullptr ||
+        (!starts_.empty() && !tubes_->was_clicked(stills.front()))) {
+      return tubes;
+    }
+    ColdTubes cold = starts_.empty() ? cold_->find_middle(picture) : cold_->find(picture, starts_);
+    if (!cold.message.empty()) {
+      tubes.status = ExitStatus::kJobFailed;
+      tubes.message = stills.front().name() + ": no pose: " + cold.message;
+    }
+    tubes.places = std::move(cold.places);
+    return tubes;
+  }
+
+  /// The tube-end that places count from where no address was given.
+  [[nodiscard]] std::optional<std::array<double, 2>> middle_of(const PictureStarts& places) const {
+    if (!starts_.empty() || places.empty()) {
+      return std::nullopt;
+    }
+    return std::array{places.front().u_px, places.front().v_px};
   }
 
   /// With `--total`, the calibrations' share of the covariance.
@@ -303,6 +367,7 @@ class PoseRun {
   FrameRange frames_;  ///< of recordings; by default the first frame alone
   std::vector<Still> stills_;
   PictureStarts starts_;
+  std::unique_ptr<ColdStart> cold_;  ///< where fewer than three places are given
   std::optional<StillTubes> tubes_;
   core::pose::CalibrationUncertainty calibrations_;
   core::verification::CorrectionRequest correction_;

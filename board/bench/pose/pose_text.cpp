@@ -59,14 +59,18 @@ void print_tool(std::string& out, const PoseFacts& facts) {
   const core::pose::TubeOffset offset =
       core::pose::offset_from(facts.model, pose.T_sheet_tool, pose.nearest);
   const TubeState state = facts.map.state(pose.nearest);
+  std::string where = "under a tube of the lattice";
+  if (!facts.middle_px) {
+    where = state == TubeState::kAbsent ? "where no tube stands, at" : "under tube";
+    print(where, " (%d, %d)%s", pose.nearest.row, pose.nearest.column,
+          state == TubeState::kPlugged ? ", plugged" : "");
+  }
   print(out,
-        "  guidetube            %s (%d, %d)%s: offset %.4f mm (dx %.4f, dy %.4f; sigma %.4f), "
+        "  guidetube            %s: offset %.4f mm (dx %.4f, dy %.4f; sigma %.4f), "
         "tilt %.4f deg (sigma %.4f), tip %.4f mm below the sheet\n",
-        state == TubeState::kAbsent ? "where no tube stands, at" : "under tube", pose.nearest.row,
-        pose.nearest.column, state == TubeState::kPlugged ? ", plugged" : "", offset.distance_mm,
-        offset.offset_mm.x(), offset.offset_mm.y(), offset_sigma_mm(facts.row),
-        offset.tilt_rad * kDegrees, tilt_sigma_rad(facts.row) * kDegrees,
-        -pose.T_sheet_tool.translation_mm().z());
+        where.c_str(), offset.distance_mm, offset.offset_mm.x(), offset.offset_mm.y(),
+        offset_sigma_mm(facts.row), offset.tilt_rad * kDegrees,
+        tilt_sigma_rad(facts.row) * kDegrees, -pose.T_sheet_tool.translation_mm().z());
 }
 
 /// Tube-ends that were looked for and did not count, by reason.
@@ -98,6 +102,12 @@ std::string pose_text(const PoseFacts& facts) {
           facts.frame_shift_px);
   }
   out += '\n';
+  if (facts.middle_px) {
+    print(out,
+          "  no address was given: the sheet's frame begins at the tube-end at (%.1f, %.1f) px, "
+          "which is called (0, 0), and its directions are a choice\n",
+          (*facts.middle_px)[0], (*facts.middle_px)[1]);
+  }
   if (facts.row.has_tool) {
     print_tool(out, facts);
   }

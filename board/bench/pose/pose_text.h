@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "board/bench/output/pose_rows.h"
@@ -20,6 +22,8 @@ struct PoseFacts {
   double frame_shift_px = 0.0;
   double field_shift_px = 0.0;
   bool total = false;
+  /// No address was given: where the tube-end is that the sheet's frame begins at.
+  std::optional<std::array<double, 2>> middle_px{};
 };
 
 /// The pose in words and numbers, for a person: six numbers with their standard deviations, offset

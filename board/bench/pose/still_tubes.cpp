@@ -40,8 +40,8 @@ bool has_meta(const Still& still) {
 
 }  // namespace
 
-StillTubes::StillTubes(const core::SessionSettings& settings, StillClicks clicks)
-    : settings_(settings), clicks_(std::move(clicks)) {}
+StillTubes::StillTubes(const core::SessionSettings& settings, StillClicks clicks, ColdStart* cold)
+    : settings_(settings), clicks_(std::move(clicks)), cold_(cold) {}
 
 TubesFound StillTubes::find(std::span<const Still> stills) {
   TubesFound first;
@@ -80,7 +80,7 @@ TubesFound StillTubes::find_in(const Still& still) {
     return found;
   }
   if (tracked_ == nullptr) {
-    tracked_ = std::make_unique<TrackedStart>(settings_, clicks_.places, clicks_.where);
+    tracked_ = std::make_unique<TrackedStart>(settings_, clicks_.places, clicks_.where, cold_);
   }
   TrackedFrame frame = tracked_->find(still.file, still.frame);
   if (frame.status != ExitStatus::kDone) {

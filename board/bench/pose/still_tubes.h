@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "board/bench/cold_start/cold_start.h"
 #include "board/bench/output/exit_status.h"
 #include "board/bench/output/still_reader.h"
 #include "board/bench/pose/pose_starts.h"
@@ -41,7 +42,9 @@ struct TubesFound {
 class StillTubes {
  public:
   /// `settings` must outlive this object.
-  StillTubes(const core::SessionSettings& settings, StillClicks clicks);
+  /// With `cold`, which must too, one or two clicks will do: in a still that was clicked in they
+  /// are given back as they are.
+  StillTubes(const core::SessionSettings& settings, StillClicks clicks, ColdStart* cold = nullptr);
 
   /// Whether the clicks themselves tell the still's tubes; else it is tracked, for which the
   /// settings need a tool.
@@ -58,6 +61,7 @@ class StillTubes {
 
   const core::SessionSettings& settings_;
   StillClicks clicks_;
+  ColdStart* cold_;
   std::unique_ptr<TrackedStart> tracked_;  ///< made when a still needs it
 };
 

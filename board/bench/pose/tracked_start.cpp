@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "board/bench/cold_start/first_field.h"
 #include "board/bench/script/replay_script.h"
 #include "board/bench/script/scripted_ports.h"
 #include "board/box/box_loop.h"
@@ -136,12 +137,29 @@ struct TrackedStart::Run {
 };
 
 TrackedStart::TrackedStart(const core::SessionSettings& settings, const PictureStarts& clicks,
-                           StartFrame where)
-    : settings_(settings), start_(settings.start), where_(where) {
+                           StartFrame where, ColdStart* cold)
+    : settings_(settings), start_(settings.start), clicks_(clicks), where_(where), cold_(cold) {
+  set_start(clicks_);
+}
+
+void TrackedStart::set_start(const PictureStarts& places) {
   start_.tubes.clear();
-  for (const core::pose::PictureStart& click : clicks) {
-    static_cast<void>(start_.tubes.try_push_back({click.address, {click.u_px, click.v_px}}));
+  for (const core::pose::PictureStart& place : places) {
+    static_cast<void>(start_.tubes.try_push_back({place.address, {place.u_px, place.v_px}}));
   }
+}
+
+std::string TrackedStart::expand(const std::string& recording) {
+  if (cold_ == nullptr || clicks_.size() >= kWholeStart) {
+    return {};
+  }
+  const RecordedField field = read_first_field(settings_.camera, recording, where_.frame);
+  if (!field.message.empty()) {
+    return field.message;
+  }
+  const ColdTubes tubes = cold_->find(field.picture, clicks_);
+  set_start(tubes.places);
+  return tubes.message;
 }
 
 TrackedStart::~TrackedStart() = default;
@@ -149,6 +167,9 @@ TrackedStart::~TrackedStart() = default;
 TrackedFrame TrackedStart::find(const std::string& recording, std::int64_t frame) {
   if (run_ == nullptr || run_->recording != recording ||
       run_->grabber.field_number() / 2 >= frame) {
+    if (const std::string why = expand(recording); !why.empty()) {
+      return failed(ExitStatus::kJobFailed, "which tubes this frame shows is not known: " + why);
+    }
     run_ = std::make_unique<Run>(settings_, recording, start_);
     if (!run_->open(settings_, where_)) {
       const std::string trouble = run_->trouble;

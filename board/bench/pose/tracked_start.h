@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "board/bench/cold_start/cold_start.h"
 #include "board/bench/output/exit_status.h"
 #include "board/bench/pose/pose_starts.h"
 #include "core/base/settings.h"
@@ -37,8 +38,9 @@ class TrackedStart {
   /// In each recording the tracking starts from the clicks: of more than core::kMaxStartPoints
   /// the first ones. `settings` must outlive this object; of its start the window and the optimum
   /// are used.
-  TrackedStart(const core::SessionSettings& settings, const PictureStarts& clicks,
-               StartFrame where);
+  /// One or two clicks become a start by `cold`, which must outlive this object, in each recording.
+  TrackedStart(const core::SessionSettings& settings, const PictureStarts& clicks, StartFrame where,
+               ColdStart* cold = nullptr);
   TrackedStart(const TrackedStart&) = delete;
   TrackedStart& operator=(const TrackedStart&) = delete;
   ~TrackedStart();
@@ -53,7 +55,13 @@ class TrackedStart {
 
   const core::SessionSettings& settings_;
   core::StartSettings start_;
+  void set_start(const PictureStarts& places);
+  /// Why the recording's first field tells no start of one or two clicks; empty: it does.
+  [[nodiscard]] std::string expand(const std::string& recording);
+
+  PictureStarts clicks_;
   StartFrame where_;
+  ColdStart* cold_;
   std::unique_ptr<Run> run_;  ///< the recording being followed, or none
 };
 

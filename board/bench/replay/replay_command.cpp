@@ -6,7 +6,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "board/bench/cold_start/cold_start.h"
+#include "board/bench/cold_start/first_field.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/overlay_sink.h"
 #include "board/bench/output/pose_rows.h"
@@ -19,6 +22,7 @@
 #include "board/box/pose_service.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
+#include "drivers/files/pairs_file.h"
 #include "drivers/replay/companion.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
@@ -72,8 +76,40 @@ class Replay {
     }
     good = good && (has_state_ || fields_come_often_enough(messages));
     good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
+    if (good && !has_state_) {
+      expand_start(messages);
+    }
     tell(messages);
     return good;
+  }
+
+  /// One or two clicks become a start by the lattice in the first field. Where they do not, the
+  /// session refuses them as too few, and the message says why.
+  void expand_start(drivers::Messages& messages) {
+    core::StartSettings& start = session_file_->settings.start;
+    if (start.tubes.empty() || start.tubes.size() >= static_cast<std::int32_t>(kWholeStart)) {
+      return;
+    }
+    const RecordedField field =
+        read_first_field(session_file_->settings.camera, options_.recording, 0);
+    if (!field.message.empty()) {
+      messages.push_back(field.message);
+      return;
+    }
+    std::vector<core::pose::PictureStart> clicks;
+    for (const core::StartPoint& point : start.tubes) {
+      clicks.push_back({point.address, point.at_px[0], point.at_px[1]});
+    }
+    ColdStart cold(session_file_->settings, true, session_file_->heading_deg);
+    const ColdTubes tubes = cold.find(field.picture, clicks);
+    if (!tubes.message.empty()) {
+      messages.push_back(options_.session + ": start: " + tubes.message);
+      return;
+    }
+    start.tubes.clear();
+    for (const core::pose::PictureStart& place : tubes.places) {
+      static_cast<void>(start.tubes.try_push_back({place.address, {place.u_px, place.v_px}}));
+    }
   }
 
   /// With a state beside it, the recording is of a box's recorder.
@@ -114,6 +150,12 @@ class Replay {
       tell(poses_file_.message());
       return false;
     }
+    if (std::string ignored;
+        !options_.pairs.empty() &&
+        !(pairs_.begin({}, options_.pairs, ignored) && pairs_file_.open(options_.pairs))) {
+      tell(pairs_file_.message());
+      return false;
+    }
     if (!options_.overlay.empty()) {
       overlay_ = make_overlay_sink(options_.overlay);
       if (!overlay_->open(grabber_->header(), grabber_->interlaced())) {
@@ -130,9 +172,10 @@ class Replay {
     if (has_state_) {
       inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
     }
-    const ReplayOutputs outputs{results_, overlay_.get(), options_.overlay_estimates,
-                                poses_,   pose_rows_,     statistics_,
-                                progress_};
+    const ReplayOutputs outputs{
+        results_,    overlay_.get(), options_.overlay_estimates,
+        poses_,      pose_rows_,     options_.pairs.empty() ? nullptr : &pairs_,
+        statistics_, progress_};
     switch (options_.scalar) {
       case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
       case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
@@ -171,6 +214,10 @@ class Replay {
       tell(poses_file_.message());
       return false;
     }
+    if (!options_.pairs.empty() && (!pairs_file_.write(pairs_.text()) || !pairs_file_.commit())) {
+      tell(pairs_file_.message());
+      return false;
+    }
     return true;
   }
 
@@ -196,6 +243,8 @@ class Replay {
   PoseService poses_;
   std::string pose_rows_;
   drivers::AtomicFile poses_file_;
+  drivers::PairsText pairs_;
+  drivers::AtomicFile pairs_file_;
   ReplayStatistics statistics_;
   ProgressLine progress_;
 };

@@ -14,6 +14,7 @@
 #include "board/box/frame_view.h"
 #include "board/box/overlay_composer.h"
 #include "board/box/overlay_snapshot.h"
+#include "board/box/pair_desk.h"
 #include "core/base/instantiate.h"
 #include "core/base/snapshot.h"
 #include "core/session/session.h"
@@ -78,6 +79,9 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    if (in_.settings.start.tubes.empty()) {
+      script_.leave_start_out();  // nobody has named tubes yet
+    }
     if (in_.state) {
       script_.leave_start_out();
       if (const auto restored = session_.restore(*in_.state); !restored) {
@@ -115,6 +119,7 @@ class ReplayJob {
     // What the recording tells of poses is not computed again; a box's tells of all.
     const bool told = in_.events.has_pose_results() || in_.state;
     services.poses = told ? nullptr : &out_.poses;
+    services.pairs = out_.pairs == nullptr ? nullptr : &pair_desk_;
     if (display_) {
       services.view = &display_->view;
       services.overlay = &display_->latest;
@@ -125,6 +130,11 @@ class ReplayJob {
 
   Result<void> write_down(const core::Field& field, const core::session::Output& output) {
     write_down_pose();
+    while (const auto pair = pair_desk_.take_pair()) {
+      if (!out_.pairs->append(*pair, message_)) {
+        return core::Unexpected(Error::kInvalidArgument);
+      }
+    }
     out_.statistics.add(output);
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
     if (const auto written =
@@ -181,6 +191,7 @@ class ReplayJob {
   ScriptedRobotLink link_;
   ReplayStation station_;
   core::session::Session<S> session_;
+  PairDesk pair_desk_;
   std::optional<Display> display_;
   std::optional<BoxLoop<S>> loop_;
   std::string message_;

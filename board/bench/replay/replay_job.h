@@ -14,6 +14,7 @@
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "drivers/files/messages.h"
+#include "drivers/files/pairs_file.h"
 #include "drivers/replay/replay_events.h"
 #include "drivers/replay/replay_frame_grabber.h"
 
@@ -37,7 +38,8 @@ struct ReplayOutputs {
   OverlaySink* overlay;  ///< null: none wanted
   bool overlay_estimates;
   PoseService& poses;
-  std::string& pose_rows;  ///< of `pose --csv`, one a request computed
+  std::string& pose_rows;     ///< of `pose --csv`, one a request computed
+  drivers::PairsText* pairs;  ///< of poses by the robot and by the box; null: none wanted
   ReplayStatistics& statistics;
   ProgressLine& progress;
 };

@@ -22,10 +22,9 @@ std::string find_output_conflict(const ReplayOptions& options) {
       NamedPath{"the recording's state", drivers::companion_path(options.recording, ".state")},
   };
   const std::array outputs = {
-      NamedPath{"--fields", options.fields},
-      NamedPath{"--centers", options.centers},
-      NamedPath{"--overlay", options.overlay},
-      NamedPath{"--poses", options.poses},
+      NamedPath{"--fields", options.fields},   NamedPath{"--centers", options.centers},
+      NamedPath{"--overlay", options.overlay}, NamedPath{"--poses", options.poses},
+      NamedPath{"--pairs", options.pairs},
   };
   return find_clash(inputs, outputs);
 }

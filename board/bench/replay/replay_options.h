@@ -16,6 +16,7 @@ struct ReplayOptions {
   std::string centers;
   std::string overlay;
   std::string poses;
+  std::string pairs;
   bool overlay_estimates = false;
   ScalarChoice scalar = ScalarChoice::kFixed;
 };

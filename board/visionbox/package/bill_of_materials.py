@@ -28,6 +28,7 @@ MATERIALS = {
     "libgpiod": ("LGPL-2.1-or-later", "linked"),
     "libmodbus": ("LGPL-2.1-or-later", "linked"),
     "libpng1.6": ("libpng-2.0", "linked"),
+    "libyaml": ("MIT", "linked"),
     "tomlplusplus": ("MIT", "compiled"),
     "xz-utils": ("LicenseRef-Public-Domain", "linked"),
     "zlib": ("Zlib", "linked"),

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "board/box/box_loop.h"
+#include "board/box/pair_desk.h"
 #include "board/box/pose_service.h"
 #include "drivers/files/messages.h"
 #include "drivers/replay/replay_frame_grabber.h"
@@ -99,7 +100,7 @@ class Robot final : public Asker<hal::RobotLink> {
   core::Event ask(int turn) override {
     switch (turn % 3) {
       case 0: return tests::event_of(core::Claim{{40, 60}});
-      case 1: return tests::event_of(core::PoseRequest{});
+      case 1: return tests::event_of(core::PoseRequest{core::RobotPose{}});
       default: return tests::event_of(core::LampCommand{900 + turn % 100});
     }
   }
@@ -165,9 +166,10 @@ TEST(BoxHeap, IsNotTouchedByATurn) {
   ASSERT_TRUE(recorder.configure(recorder_settings, file->settings.camera,
                                  core::session::Session<core::FixedPoint>::state_bytes()));
   recorder.request();
+  PairDesk pairs;
   const auto loop = std::make_unique<BoxLoop<core::FixedPoint>>(
       *session, BoxPorts{&grabber, &clock, &lamp, &robot, &person},
-      BoxServices{&poses, &view, overlay.get(), true, &recorder});
+      BoxServices{&poses, &view, overlay.get(), true, &recorder, {}, &pairs});
   ASSERT_TRUE(loop->start());
 
   int tracked = 0;

@@ -7,7 +7,7 @@ namespace {
 
 TEST(RefusalText, NamesTheClickToBlame) {
   EXPECT_EQ(refusal_text({core::StartRefusal::kNoTubeThere, 2}),
-            "no dark tube-end around a click (click 3)");
+            "no dark tube-end around a click: plate, or no light of the lamp (click 3)");
   EXPECT_EQ(refusal_text({core::StartRefusal::kTooFew}), "fewer than three clicks");
 }
 

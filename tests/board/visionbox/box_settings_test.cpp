@@ -202,6 +202,25 @@ TEST_F(BoxSettingsTest, PulsesThatBeatWithTheExposureAreTold) {
            "light, expected pattern = false"));
 }
 
+// A field of an analog camera is exposed for as long as its standard says.
+TEST_F(BoxSettingsTest, PulsesThatBeatWithAFieldOfTheStandardAreTold) {
+  const auto box = [](const std::string& standard, const std::string& frequency) {
+    std::string text(kCamera);
+    const std::string source = "[source]\n";
+    text.insert(text.find(source) + source.size(), "standard = \"" + standard + "\"\n");
+    return text + "[lamp]\nkind = \"pwm\"\nchip = \"fe20c000.pwm\"\nchannel = 1\nfrequency_hz = " +
+           frequency + "\n";
+  };
+  EXPECT_TRUE(load(box("PAL", "100"))) << "two pulses";
+  EXPECT_FALSE(load(box("NTSC", "100")));
+  EXPECT_TRUE(
+      told("lamp.frequency_hz: 100 pulses a second beat with the exposure by 40 % of the light, "
+           "expected 1199 or more, or pattern = false"))
+      << messages_.front();
+  EXPECT_FALSE(load(box("PAL", "120")));
+  EXPECT_TRUE(load(box("NTSC", "120"))) << messages_.front();
+}
+
 TEST_F(BoxSettingsTest, BeatIsThatOfTheWave) {
   // As lamp_beat_study draws it at half light: 100 pulses in 4 ms are 0.4 of one, 2 * 0.4 / 0.4.
   EXPECT_NEAR(beat_of_pulses(100.0, 4.0), 2.0, 1e-9);

@@ -33,6 +33,11 @@ class FakeCamera final : public Camera, public hal::FrameGrabber {
 
   // As its grabber.
   core::Result<void> start() override {
+    starting_ = true;
+    while (slow_) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    starting_ = false;
     if (absent_) {
       return core::Unexpected(Error::kDisconnected);
     }
@@ -63,6 +68,8 @@ class FakeCamera final : public Camera, public hal::FrameGrabber {
   std::atomic<bool> absent_{false};
   std::atomic<bool> gone_{false};
   std::atomic<bool> silent_{false};
+  std::atomic<bool> slow_{false};  ///< an opening lasts as long as this
+  std::atomic<bool> starting_{false};
   std::atomic<bool> unbound_{false};
   std::atomic<bool> well_{true};
   std::atomic<bool> started_{false};
@@ -182,6 +189,30 @@ TEST_F(CameraSourceTest, ACameraThatGoesIsClosedAndOpenedAnew) {
   camera_.absent_ = false;
   EXPECT_TRUE(delivers_again());
   EXPECT_EQ(source_.passes(), 2);
+}
+
+// An absent camera of a network keeps its library for 2.5 s.
+TEST_F(CameraSourceTest, AnOpeningThatTakesLongKeepsNobodyWaiting) {
+  ASSERT_TRUE(source_.start());
+  ASSERT_TRUE(grab());
+  camera_.slow_ = true;
+  camera_.gone_ = true;
+  ASSERT_FALSE(grab());
+  for (int i = 0; i < 2000 && !camera_.starting_; ++i) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  ASSERT_TRUE(camera_.starting_) << "on the source's thread";
+
+  for (int i = 0; i < 100; ++i) {
+    const auto none = grab();
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error(), Error::kDisconnected);
+  }
+  EXPECT_TRUE(camera_.starting_) << "while it goes on";
+
+  camera_.gone_ = false;
+  camera_.slow_ = false;
+  EXPECT_TRUE(delivers_again());
 }
 
 TEST_F(CameraSourceTest, AFieldThatDoesNotComeIsATimeout) {

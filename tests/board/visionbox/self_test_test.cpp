@@ -47,6 +47,14 @@ TEST(SelfTest, FindsEachFault) {
   report.source = SourceState::kFailed;
   EXPECT_EQ(bad_row(report), "source");
   report = good_report();
+  report.pairs.file = "p.csv";
+  report.pairs.written = 3;
+  EXPECT_EQ(bad_row(report), "");
+  EXPECT_NE(status_answer(report).find("p.csv, 3 written"), std::string::npos);
+  report.pairs.lost = 1;
+  report.pairs.trouble = "p.csv: cannot be written";
+  EXPECT_EQ(bad_row(report), "pairs");
+  report = good_report();
   report.fields_per_s = 30.0;
   EXPECT_EQ(bad_row(report), "rate");
   report = good_report();

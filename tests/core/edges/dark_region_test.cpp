@@ -246,5 +246,19 @@ TEST(CrossHairMean, CutsArmsOffAtTheBorder) {
   }
 }
 
+TEST(CrossHair, IsBlankWhereItIsOneGreyValueAloneButWhite) {
+  Picture picture(60, 60, 150);
+  const auto look = [&] {
+    return look_at_cross_hair(picture.field(Parity::kEven), 30, 30, 8, 8, 149);
+  };
+  EXPECT_TRUE(look().blank);
+  EXPECT_EQ(look().mean, 150);
+  EXPECT_EQ(look().dark, 0);
+  picture.at(30, 22) = 149;
+  EXPECT_FALSE(look().blank);
+  EXPECT_EQ(look().dark, 1);
+  EXPECT_FALSE(look_at_cross_hair(Picture(60, 60, 255).field(Parity::kEven), 30, 30, 8, 8).blank);
+}
+
 }  // namespace
 }  // namespace tubesight::core::edges

@@ -80,8 +80,8 @@ TEST(LampPattern, GoesOnWhereTheClockRunsBack) {
 
 TEST(SwungLevel, StaysWithinTwoPercent) {
   for (std::int32_t level = kDimmest_permille; level <= 990; ++level) {
-    const std::int32_t bright = swung_permille(level, 1, 1000);
-    const std::int32_t dim = swung_permille(level, -1, 1000);
+    const std::int32_t bright = swung_permille(level, 1, kSwing_permille, 1000);
+    const std::int32_t dim = swung_permille(level, -1, kSwing_permille, 1000);
     EXPECT_GT(bright, dim);
     EXPECT_LE((bright - dim) * 50, level) << level;
     EXPECT_EQ(bright + dim, 2 * level);
@@ -89,14 +89,14 @@ TEST(SwungLevel, StaysWithinTwoPercent) {
 }
 
 TEST(SwungLevel, StaysBelowTheMost) {
-  EXPECT_EQ(swung_permille(1000, 1, 1000), 1000);
-  EXPECT_EQ(swung_permille(1000, -1, 1000), 980);
-  EXPECT_EQ(swung_permille(795, 1, 800), 800);
+  EXPECT_EQ(swung_permille(1000, 1, 10, 1000), 1000);
+  EXPECT_EQ(swung_permille(1000, -1, 20, 1000), 960);
+  EXPECT_EQ(swung_permille(795, 1, 10, 800), 800);
 }
 
 TEST(SwungLevel, LeavesDimLightAlone) {
-  EXPECT_EQ(swung_permille(0, 1, 1000), 0);
-  EXPECT_EQ(swung_permille(kDimmest_permille - 1, -1, 1000), kDimmest_permille - 1);
+  EXPECT_EQ(swung_permille(0, 1, 10, 1000), 0);
+  EXPECT_EQ(swung_permille(kDimmest_permille - 1, -1, 10, 1000), kDimmest_permille - 1);
 }
 
 }  // namespace

@@ -146,6 +146,18 @@ TEST_F(FadingLamp, IsNoTiltedLightOnTheWay) {
             0.0);
 }
 
+// By more than 9.5 h a product of light and time would not fit any more.
+TEST_F(FadingLamp, StaysFallenWhereTheClockRunsBack) {
+  now_ += std::chrono::hours(30);
+  ASSERT_LT(run_until(true, 5.0, [](double, World&) {}), 0.0);
+  ASSERT_GE(run_until(true, 20.0, [](double t, World& w) { w.lamp = fade(t); }), 0.0);
+  now_ -= std::chrono::hours(25);
+  step({.lamp = 1.3});
+  EXPECT_TRUE(fall_.fallen());
+  EXPECT_LT(run_until(false, 3.0, [](double, World& w) { w.lamp = 0.05; }), 0.0);
+  EXPECT_GE(run_until(false, 3.0, [](double, World&) {}), 0.0) << "a new bulb";
+}
+
 TEST_F(FadingLamp, IsNoLevelThatSomebodyCommands) {
   const auto commanded = [](double t, World& w) {
     w.level = std::fmod(t, 20.0) < 10.0 ? 200.0 : 1000.0;

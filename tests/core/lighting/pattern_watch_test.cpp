@@ -1,5 +1,6 @@
 #include "core/lighting/pattern_watch.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -69,14 +70,18 @@ class WatchedLamp : public testing::Test {
     ++number_;
     watch_.follow(field, change);
     level_ = world.swings ? swung_permille(static_cast<std::int32_t>(world.level),
-                                           pattern_.sign_after(now_), 1000)
+                                           pattern_.sign_after(now_), swing_permille(), 1000)
                           : world.level;
+  }
+
+  [[nodiscard]] std::int32_t swing_permille() const {
+    return watch_.needs_wide_swing() ? kWideSwing_permille : kSwing_permille;
   }
 
   /// It swings as ours does, with the same lag, at times of its own.
   void follow_another(const World& world, double span_s) {
     if (number_ % 3 == 1) {
-      anothers_level_ = (random_() & 1U) != 0 ? 1.01 : 0.99;
+      anothers_level_ = 1.0 + ((random_() & 1U) != 0 ? 1e-3 : -1e-3) * swing_permille();
     }
     anothers_ += (anothers_level_ - anothers_) * (span_s / (span_s + world.lag_s));
   }
@@ -104,6 +109,29 @@ TEST_F(WatchedLamp, IsProvedWithinTwoSecondsAtRest) {
   }
 }
 
+// Ten fields make the first difference, and there have to be twenty-four of these.
+TEST_F(WatchedLamp, CountsNoFieldTwice) {
+  watch_.begin();
+  EXPECT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = 0.0, .noise = 1e-4}), 0.56);
+}
+
+// Until it is seen to follow, and for longer where it does so with a long lag.
+TEST_F(WatchedLamp, SwingsAsWideAsItNeeds) {
+  EXPECT_TRUE(watch_.needs_wide_swing());
+  static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.05}));
+  EXPECT_FALSE(watch_.needs_wide_swing());
+  static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.05, .frozen = true}));
+  EXPECT_TRUE(watch_.needs_wide_swing()) << "what is not seen";
+  watch_.begin();
+  static_cast<void>(run_until(Liveness::kFailed, 12.0, {.lag_s = 0.2}));
+  EXPECT_EQ(watch_.liveness(), Liveness::kProved);
+  EXPECT_TRUE(watch_.needs_wide_swing());
+  // Another bulb, which follows at once: the larger swing does not hide it.
+  static_cast<void>(run_until(Liveness::kFailed, 30.0, {.lag_s = 0.02}));
+  EXPECT_EQ(watch_.liveness(), Liveness::kProved);
+  EXPECT_FALSE(watch_.needs_wide_swing());
+}
+
 TEST_F(WatchedLamp, IsProvedWithinTenSecondsWhileMoving) {
   // As measured on drawn fields at 300 mm/s: 0.3 % from field to field.
   for (const double lag_s : {0.0, 0.05, 0.1}) {
@@ -129,21 +157,83 @@ TEST_F(WatchedLamp, IsRefutedByAFrozenPictureUnderNoise) {
   }
 }
 
-// Whatever the lag, within two seconds in nine of ten beginnings, and soon in all of them.
-TEST_F(WatchedLamp, IsRefutedByAnothersPattern) {
-  for (const double lag_s : {0.0, 0.05, 0.07, 0.1, 0.15, 0.2}) {
+// Another lamp's picture that comes soon after the first proof, when little is learnt of ours yet.
+TEST_F(WatchedLamp, IsNotTakenForProvedByAnothersPatternSoonAfterTheFirstProof) {
+  for (const double lag_s : {0.0, 0.05, 0.1, 0.18}) {
     int late = 0;
     constexpr int kTimes = 20;
     for (int i = 0; i < kTimes; ++i) {
       watch_.begin();
       ASSERT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = lag_s}), 0.0);
+      ASSERT_LT(run_until(Liveness::kFailed, 1.5, {.lag_s = lag_s}), 0.0);
+      ASSERT_EQ(watch_.liveness(), Liveness::kProved);
+      const World another{.lag_s = lag_s, .anothers = true};
+      double lapsed_s = 0.0;
+      while (watch_.liveness() == Liveness::kProved && lapsed_s < 10.0) {
+        step(another);
+        lapsed_s += 1.0 / 60.0;
+      }
+      late += lapsed_s > 2.0 ? 1 : 0;
+      EXPECT_LE(lapsed_s, 5.0) << lag_s;
+    }
+    EXPECT_LE(late, kTimes / 10) << lag_s;
+  }
+}
+
+// A level that is led away from a picture that does not follow (an automatic lamp would).
+TEST_F(WatchedLamp, IsDoubtedByAnothersPatternWhileTheLevelIsLedAway) {
+  for (const double lag_s : {0.05, 0.18}) {
+    watch_.begin();
+    World world{.lag_s = lag_s, .share = 0.5};
+    ASSERT_GE(run_until(Liveness::kProved, 5.0, world), 0.0);
+    ASSERT_LT(run_until(Liveness::kFailed, 6.0, world), 0.0);
+    world.anothers = true;
+    double doubted_s = 0.0;
+    while (watch_.liveness() != Liveness::kFailed && !watch_.doubts() && doubted_s < 10.0) {
+      world.level = watch_.wants_level() ? world.level : std::max(world.level * 0.996, 120.0);
+      step(world);
+      doubted_s += 1.0 / 60.0;
+    }
+    EXPECT_LE(doubted_s, 5.0) << lag_s;
+  }
+}
+
+TEST_F(WatchedLamp, DoubtsNoSoundLampForLong) {
+  for (const double lag_s : {0.0, 0.05, 0.1, 0.2}) {
+    watch_.begin();
+    int doubted = 0;
+    for (int i = 0; i < 60 * 600; ++i) {
+      step({.lag_s = lag_s, .share = 0.7, .noise = 3e-3});
+      doubted += watch_.doubts() ? 1 : 0;
+    }
+    EXPECT_LE(doubted, 36) << lag_s;
+  }
+}
+
+// Whatever the lag: not proved any more within two seconds in nineteen of twenty beginnings, named
+// by then in eighteen, and soon in all of them.
+TEST_F(WatchedLamp, IsRefutedByAnothersPattern) {
+  for (const double lag_s : {0.0, 0.05, 0.07, 0.1, 0.15, 0.2}) {
+    int late = 0;
+    int held = 0;
+    constexpr int kTimes = 20;
+    for (int i = 0; i < kTimes; ++i) {
+      watch_.begin();
+      ASSERT_GE(run_until(Liveness::kProved, 5.0, {.lag_s = lag_s}), 0.0);
       ASSERT_LT(run_until(Liveness::kFailed, 12.0, {.lag_s = lag_s}), 0.0);
-      const double failed_s =
-          run_until(Liveness::kFailed, 12.0, {.lag_s = lag_s, .anothers = true});
-      EXPECT_GE(failed_s, 0.0) << lag_s;
+      const World another{.lag_s = lag_s, .anothers = true};
+      double failed_s = 0.0;
+      double proved_s = 0.0;
+      for (; watch_.liveness() != Liveness::kFailed && failed_s < 12.0; failed_s += 1.0 / 60.0) {
+        step(another);
+        proved_s += watch_.liveness() == Liveness::kProved ? 1.0 / 60.0 : 0.0;
+      }
+      EXPECT_LT(failed_s, 12.0) << lag_s;
+      held += proved_s > 2.0 ? 1 : 0;
       late += failed_s > 2.0 ? 1 : 0;
     }
-    EXPECT_LE(late, lag_s > 0.1 ? kTimes / 4 : kTimes / 10) << lag_s;
+    EXPECT_LE(held, kTimes / 20) << lag_s;
+    EXPECT_LE(late, kTimes / 10) << lag_s;
   }
 }
 

@@ -113,5 +113,41 @@ TEST(CalibrationCovariance, MatchesTheErrorThatAWrongCameraMakes) {
   }
 }
 
+TEST(CalibrationCovariance, LetsAnEflFoundAtDockingCancelInTheTool) {
+  PoseScene scene;
+  const tests::ToolPlace place{762.4, 457.0, 0.0, 33.0, 0.0, 0.0};
+  scene.see(place, 25, {});
+  const PoseOutcome right = scene.estimate();
+  ASSERT_TRUE(right.has_value());
+  CalibrationUncertainty uncertainty;
+  uncertainty.camera_sigma = {0.005, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const auto by_camera = calibration_covariance(scene.model, *scene.rims, right.estimate,
+                                                uncertainty, {}, *scene.workspace);
+  ASSERT_TRUE(by_camera.has_value());
+  // A tool whose place is wrong by what the EFL makes wrong: docked, the tip is where it is.
+  const math::Matrix6d J = tool_sensitivity(scene.model, right.estimate);
+  const auto slope = camera_sensitivity(scene.model, *scene.rims, right.estimate,
+                                        uncertainty.camera_sigma, {}, *scene.workspace);
+  ASSERT_TRUE(slope.has_value());
+  const math::Vector6d tool = -0.005 * J.inverse() * slope->col(0);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double value = tool(static_cast<Eigen::Index>(i));
+    uncertainty.tool_sigma[i] = std::abs(value);
+    uncertainty.focal_length_correlation[i] = value < 0.0 ? -1.0 : 1.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+      uncertainty.tool_correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          value * tool(static_cast<Eigen::Index>(k)) < 0.0 ? -1.0 : 1.0;
+    }
+  }
+
+  const auto both = calibration_covariance(scene.model, *scene.rims, right.estimate, uncertainty,
+                                           {}, *scene.workspace);
+
+  ASSERT_TRUE(both.has_value());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LT(std::abs((*both)(i, i)), 1e-6 * (*by_camera)(2, 2)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace tubesight::core::pose

@@ -32,9 +32,9 @@ class ConfirmedStart : public ObservedScene<S> {
     for (std::size_t i = 0; i < specks_; ++i) {
       frame_[random() % frame_.size()] = 255;
     }
-    return find_confirmed_start<S>(scene_.model, sheet_->view(frame_, Parity::kEven), clicks,
-                                   *observer_, seen_)
-        .refusal;
+    const FieldView view = sheet_->view(frame_, Parity::kEven);
+    StartSearch<S> search(scene_.model, *scene_.map, view, clicks);
+    return find_confirmed_start<S>(search, *observer_, seen_).refusal;
   }
 
   std::size_t specks_ = 0;

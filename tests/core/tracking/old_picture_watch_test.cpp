@@ -182,6 +182,27 @@ TEST_F(OldPictureWatchOf, FindsEdgesThatStandWhileTheToolMovesInAnySource) {
   EXPECT_FALSE(show(true));
 }
 
+// A store that holds a field of each parity: to and fro, and each turn looks like the motion's end.
+TEST_F(OldPictureWatchOf, TellsPicturesThatAreOldAgainWithoutFreshEdges) {
+  draw_stripes(0);
+  show();
+  EXPECT_TRUE(show(true));
+  EXPECT_FALSE(show(false));
+  EXPECT_FALSE(watch_.stays_old());
+  EXPECT_TRUE(show(true)) << "once more";
+  EXPECT_TRUE(watch_.stays_old());
+}
+
+TEST_F(OldPictureWatchOf, LetsALivePictureBeTakenForAnOldOneNowAndThen) {
+  for (std::int32_t stop = 0; stop < 10; ++stop) {
+    draw_stripes(3 * stop);
+    show(true);
+    EXPECT_TRUE(show(true)) << "the first field of a stop";
+    EXPECT_FALSE(show(false));
+  }
+  EXPECT_FALSE(watch_.stays_old()) << "in between it moved";
+}
+
 TEST_F(OldPictureWatchOf, LearnsOnlyFromThreeFieldsAtRestInARow) {
   rest(1, 2);
   EXPECT_FALSE(look(3));

@@ -1,5 +1,9 @@
 #include "core/tracking/sheet_observer.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "tests/core/tracking/tracking_test_support.h"
@@ -70,6 +74,89 @@ TYPED_TEST(SheetObserverOf, IsContradictedBySheetWhereTubeEndsMustBe) {
   EXPECT_FALSE(seen.fitted);
   EXPECT_EQ(seen.trouble, Reason::kNoTubes);
   EXPECT_TRUE(seen.contradiction);
+}
+
+// A cloth or a shutter over the picture. Without noise it might be the plate.
+TYPED_TEST(SheetObserverOf, SeesNothingOfWhatIsOneGreyValueAlone) {
+  for (const double noise : {1.5, 0.0}) {
+    this->sheet_->look.noise = noise;
+    const FieldView clear = this->draw();
+    const auto all = this->observer_->observe(clear, this->expect_off_by(0.0, 0.5));
+    ASSERT_TRUE(all.fitted);
+    for (const int grey : {25, 170}) {
+      static_cast<void>(this->draw());
+      const auto width = static_cast<std::size_t>(clear.width_px);
+      for (std::size_t line = 0; line < this->frame_.size() / width; ++line) {
+        std::fill_n(this->frame_.begin() + static_cast<std::ptrdiff_t>(line * width), width / 2,
+                    static_cast<std::uint8_t>(grey));
+      }
+      const auto half = this->observer_->observe(clear, this->expect_off_by(0.0, 0.5));
+      ASSERT_TRUE(half.fitted);
+      EXPECT_GE(half.fit.used, 6);
+      const std::int32_t unseen = all.looked_at - half.looked_at;
+      EXPECT_EQ(unseen > 3, noise > 0.0) << unseen;
+      EXPECT_LT(this->error_mm(half), 0.3);
+      if (noise > 0.0) {
+        EXPECT_FALSE(half.contradiction);
+        // What is cut by the border alone.
+        EXPECT_LE(this->observer_->record().sites.bright.size(), 4);
+      }
+    }
+  }
+}
+
+// As by the camera's own LEDs, which light one side: tube-ends enough are no chance.
+TYPED_TEST(SheetObserverOf, ConfirmsAStartByManyTubeEndsWhereTheRestIsDark) {
+  for (const int grey : {8, 140}) {
+    const FieldView field = this->draw();
+    const auto width = static_cast<std::size_t>(field.width_px);
+    std::mt19937 random(7);
+    for (std::size_t i = 0; i < this->frame_.size(); ++i) {
+      if (i % width > width * 2 / 5) {
+        this->frame_[i] = static_cast<std::uint8_t>(grey + static_cast<int>(random() % 3));
+      }
+    }
+    auto expected = this->expect_off_by(0.0, 0.5);
+    expected.confirm_all = true;
+    const auto seen = this->observer_->observe(field, expected);
+    ASSERT_TRUE(seen.fitted);
+    EXPECT_GE(seen.fit.used, 8);
+    EXPECT_LT(2 * seen.fit.used, seen.looked_at);
+    EXPECT_EQ(seen.contradiction, grey > 100);
+  }
+}
+
+TYPED_TEST(SheetObserverOf, SeesTubeEndsThroughSpecks) {
+  static_cast<void>(this->draw());
+  std::mt19937 random(5);
+  for (std::size_t i = 0; i < this->frame_.size() / 25; ++i) {
+    this->frame_[random() % this->frame_.size()] = 255;
+  }
+  const auto seen = this->observer_->observe(this->sheet_->view(this->frame_, Parity::kEven),
+                                             this->expect_off_by(0.0, 0.5));
+  ASSERT_TRUE(seen.fitted);
+  EXPECT_FALSE(seen.contradiction);
+  EXPECT_EQ(this->observer_->record().sites.bright.size(), 0);
+}
+
+// What looks like plugs in one light are tube-ends in the other.
+TYPED_TEST(SheetObserverOf, FollowsARaisedBlackLevelOnceTubeEndsProveIt) {
+  this->sheet_->look.gain = 0.5;
+  this->sheet_->look.offset = 80.0;
+  const FieldView raised = this->draw();
+  const auto expected = this->expect_off_by(0.0, 0.5);
+  ASSERT_TRUE(this->observer_->observe(raised, expected).fitted);
+  EXPECT_GT(this->observer_->record().light.region_threshold, 90);
+  EXPECT_EQ(this->observer_->record().plugs_seen.size(), 0);
+}
+
+TYPED_TEST(SheetObserverOf, KeepsTheThresholdThatTheSettingsSet) {
+  this->scene_.settings->edges.region_threshold = 50;
+  this->make();
+  this->sheet_->look.gain = 0.5;
+  this->sheet_->look.offset = 80.0;
+  EXPECT_FALSE(this->observer_->observe(this->draw(), this->expect_off_by(0.0, 0.5)).fitted);
+  EXPECT_EQ(this->observer_->record().light.region_threshold, 50);
 }
 
 TYPED_TEST(SheetObserverOf, GlancesWithoutLearning) {

@@ -12,7 +12,7 @@ TEST(SiteMemory, VouchesForWhatItNeverSaw) { EXPECT_TRUE(SiteMemory().vouches_fo
 
 TEST(SiteMemory, DoesNotVouchForASiteThatWasBrightAlone) {
   SiteMemory memory;
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   EXPECT_FALSE(memory.vouches_for(kSite));
   for (int field = 0; field < 100; ++field) {
@@ -25,12 +25,12 @@ TEST(SiteMemory, DoesNotVouchForASiteThatWasBrightAlone) {
 
 TEST(SiteMemory, OneLookAtATubeEndIsEnough) {
   SiteMemory memory;
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   memory.saw_tube_end(kSite);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite));
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite)) << "a glare, or the guidetube, on a tube-end";
 }
@@ -39,7 +39,7 @@ TEST(SiteMemory, APlateInPoorLightIsNoTubeEnd) {
   SiteMemory memory;
   memory.saw_dark(kSite);
   memory.end_field();
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   EXPECT_FALSE(memory.vouches_for(kSite));
   memory.saw_dark(kSite);
@@ -49,7 +49,7 @@ TEST(SiteMemory, APlateInPoorLightIsNoTubeEnd) {
 
 TEST(SiteMemory, BehindTheGuidetubeNothingIsLearnt) {
   SiteMemory memory;
-  memory.saw_bright(kSite, false, kTool);
+  memory.saw_closed(kSite, false, kTool);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite));
 }
@@ -59,14 +59,14 @@ TEST(SiteMemory, TubeEndsOutOfViewAreForgottenWhereRoomIsNeeded) {
   memory.saw_tube_end(kSite);
   memory.end_field();
   memory.end_field();
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   EXPECT_TRUE(memory.vouches_for(kSite));
   for (std::int32_t column = 0; column < 50; ++column) {
     memory.saw_tube_end({1, column});
   }
   memory.end_field();
-  memory.saw_bright(kSite, true, kTool);
+  memory.saw_closed(kSite, true, kTool);
   memory.end_field();
   EXPECT_FALSE(memory.vouches_for(kSite));
 }
@@ -74,7 +74,7 @@ TEST(SiteMemory, TubeEndsOutOfViewAreForgottenWhereRoomIsNeeded) {
 TEST(SiteMemory, KeepsTheBrightSitesNearestToTheTool) {
   SiteMemory memory;
   for (std::int32_t column = 100; column > 60; --column) {
-    memory.saw_bright({10, column}, true, kTool);
+    memory.saw_closed({10, column}, true, kTool);
   }
   memory.end_field();
   for (std::int32_t column = 61; column <= 92; ++column) {
@@ -92,7 +92,7 @@ TEST(SiteMemory, KnowsAsManyTubeEndsAsAWindowShows) {
   }
   memory.end_field();
   for (std::int32_t column = 0; column < 64; ++column) {
-    memory.saw_bright({1, column}, true, kTool);
+    memory.saw_closed({1, column}, true, kTool);
   }
   memory.end_field();
   for (std::int32_t column = 0; column < 64; ++column) {

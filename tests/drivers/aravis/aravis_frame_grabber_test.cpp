@@ -99,6 +99,45 @@ INSTANTIATE_TEST_SUITE_P(All, GigeFormats,
                                          "Mono12Packed", "Mono10p", "Mono12p"),
                          [](const auto& format) { return std::string(format.param); });
 
+/// A camera's picture, at 120 fields a second.
+struct GigePicture {
+  std::int32_t width_px;
+  std::int32_t height_px;
+  Scan scan;
+  const char* format;
+};
+
+class GigePictures : public testing::TestWithParam<GigePicture> {};
+
+TEST_P(GigePictures, OfAllSizesAreLentWhole) {
+  const GigePicture& picture = GetParam();
+  drivers::AravisSettings settings = gige_settings(picture.scan);
+  settings.width_px = picture.width_px;
+  settings.height_px = picture.height_px;
+  settings.fields_per_s = 120.0;
+  GigeBench bench(settings);
+  bench.camera().sensor = {0, 0, 1920, 1200};
+  bench.camera().formats = {picture.format};
+  bench.camera().numbers[drivers::aravis::Quantity::kFrames_per_s].bounds.most = 200.0;
+  const bool pair = picture.scan != Scan::kProgressive;
+  bench.camera().every = core::FieldTime{pair ? 16'666'667 : 8'333'333};
+  ASSERT_TRUE(bench.settle()) << bench.message();
+
+  EXPECT_EQ(bench.grabber().span(), core::FieldTime{8'333'333});
+  const auto lease = bench.grab();
+  ASSERT_TRUE(lease);
+  EXPECT_EQ(lease->field().status, core::FieldStatus::kGood);
+  expect_drawn(lease->field(), picture.width_px, picture.height_px / (pair ? 2 : 1));
+  EXPECT_EQ(bench.counters().lost_fields, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, GigePictures,
+                         testing::Values(GigePicture{320, 240, Scan::kOddFirst, "Mono8"},
+                                         GigePicture{1280, 1024, Scan::kProgressive, "Mono10p"},
+                                         GigePicture{1920, 1200, Scan::kProgressive, "Mono8"},
+                                         GigePicture{1920, 1200, Scan::kEvenFirst,
+                                                     "Mono12Packed"}));
+
 TEST(AravisFrameGrabber, LinesOfBytesAreLentWhereTheLibraryPutThem) {
   GigeBench bench;
   ASSERT_TRUE(bench.settle());

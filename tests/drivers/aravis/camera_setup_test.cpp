@@ -82,6 +82,19 @@ TEST_F(GigeSetup, WhatIsNotWantedStaysAsItIs) {
       << "that of the most frames a second";
 }
 
+// A mirrored picture moves the wrong way, and a test pattern is none of the tool's.
+TEST_F(GigeSetup, ACameraThatSomebodyLeftMirroredOrWithATestPatternIsRefused) {
+  with(settings_, [](FakeGigeCamera& camera) {
+    camera.alterations = {"ReverseX is on", "TestPattern is GreyHorizontalRamp"};
+  });
+  expect_refusal(Error::kUnsupported,
+                 "gives no plain pictures: ReverseX is on, TestPattern is GreyHorizontalRamp, "
+                 "expected off");
+
+  bench_->camera().alterations.clear();
+  EXPECT_TRUE(bench_->grabber().start()) << "when that is put right";
+}
+
 TEST_F(GigeSetup, TheBestFormatIsTaken) {
   with(settings_, [](FakeGigeCamera& camera) {
     camera.formats = {"BayerRG8", "Mono12", "Mono12Packed"};

@@ -34,6 +34,7 @@ struct FakeGigeCamera {
       {drivers::aravis::Quantity::kFrames_per_s, {30.0, {1.0, 100.0}}},
       {drivers::aravis::Quantity::kExposure_us, {2000.0, {10.0, 30'000.0}, 0.0, false}},
       {drivers::aravis::Quantity::kGain, {0.0, {0.0, 12.0}, 0.0, false}}};
+  std::vector<std::string> alterations;  ///< "ReverseX is on"
   std::vector<std::string> triggers{"Line1"};
   bool packets = true;
   std::int32_t negotiated_packet = 8000;

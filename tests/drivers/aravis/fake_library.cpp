@@ -56,6 +56,7 @@ class FakeDevice final : public drivers::aravis::Device {
     return {0, 0, camera_->sensor.width_px / camera_->binned,
             camera_->sensor.height_px / camera_->binned};
   }
+  std::vector<std::string> alterations() override { return camera_->alterations; }
   bool has(Quantity quantity) override { return camera_->numbers.contains(quantity); }
   void by_hand(Quantity quantity) override {
     if (has(quantity)) {

@@ -181,6 +181,21 @@ TEST_F(GigeFaults, APictureOfAnotherSizeOrFormatIsDamaged) {
   expect_well();
 }
 
+// A calibration holds for one place on one sensor.
+TEST_F(GigeFaults, ACameraThatComesBackWithAnotherSensorIsNotTaken) {
+  bench_.camera().sensor = {0, 0, 48, 48};
+  const auto started = bench_.start_anew();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error(), Error::kUnsupported);
+  EXPECT_EQ(bench_.message(),
+            "camera address:10.0.0.2: refuses its region (out of range) of its 48 x 48, expected "
+            "64 x 48 at 0, 0");
+  EXPECT_EQ(bench_.report().trouble, AravisTrouble::kNotOpen);
+
+  bench_.camera().sensor = {0, 0, 1024, 768};
+  expect_recovery();
+}
+
 TEST_F(GigeFaults, ACameraThatFallsSilentIsLostAfterASecond) {
   const core::FieldTime before = bench_.library().now();
   bench_.camera().absent = true;

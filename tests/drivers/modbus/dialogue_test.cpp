@@ -214,6 +214,74 @@ TEST(DialogueCommand, PoseComesAfterItsRequestIsTakenWithACorrection) {
   EXPECT_EQ(bench.get(kCorrectionZ), 0);
 }
 
+TEST(DialogueCommand, ARobotTellsItsOwnPoseWithOneRequest) {
+  LinkBench bench;
+  for (const auto& [name, value] : {std::pair{kRobotX, 12'345'678},
+                                    {kRobotY, -1},
+                                    {kRobotZ, 0},
+                                    {kRobotAlpha, -35'999'999},
+                                    {kRobotBeta, 7},
+                                    {kRobotGamma, 0},
+                                    {kRobotJoint1, 100'000},
+                                    {kRobotJoint2, -7'200'000}}) {
+    ASSERT_EQ(bench.set(name, value), Refusal::kNone);
+  }
+  ASSERT_EQ(bench.set(kRobotJoints, 2), Refusal::kNone);
+  ASSERT_EQ(bench.set(kRobotTold, 2), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);
+
+  const auto told = content_of<core::PoseRequest>(bench.take_event()).robot;
+
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->position_nm, (std::array<std::int64_t, 3>{1'234'567'800, -100, 0}));
+  EXPECT_TRUE(told->turned);
+  EXPECT_EQ(told->angles_ndeg, (std::array<std::int64_t, 3>{-359'999'990'000, 70'000, 0}));
+  EXPECT_EQ(told->joints, 2);
+  EXPECT_EQ(told->joints_ndeg[0], 1'000'000'000);
+  EXPECT_EQ(told->joints_ndeg[1], -72'000'000'000);
+  EXPECT_EQ(told->joints_ndeg[2], 0);
+  // The next request is made at another place.
+  EXPECT_EQ(bench.get(kRobotTold), 0);
+  EXPECT_EQ(bench.get(kRobotJoints), 0);
+  ASSERT_EQ(bench.set(kCommand, 0), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);
+  EXPECT_FALSE(content_of<core::PoseRequest>(bench.take_event()).robot);
+}
+
+TEST(DialogueCommand, ARobotMayTellItsPlaceAlone) {
+  LinkBench bench;
+  ASSERT_EQ(bench.set(kRobotX, 50'000), Refusal::kNone);
+  ASSERT_EQ(bench.set(kRobotAlpha, 90'000'000), Refusal::kNone) << "left over, and not told";
+  ASSERT_EQ(bench.set(kRobotTold, 1), Refusal::kNone);
+  ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);
+
+  const auto told = content_of<core::PoseRequest>(bench.take_event()).robot;
+
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->position_nm[0], 5'000'000);
+  EXPECT_FALSE(told->turned);
+  EXPECT_EQ(told->angles_ndeg[0], 0);
+}
+
+TEST(DialogueCommand, ARobotsPoseOutOfItsLimitsIsRefused) {
+  for (const auto& [name, most] : {std::pair{kRobotX, 1'000'000'000},
+                                   {kRobotZ, 1'000'000'000},
+                                   {kRobotGamma, 36'000'000},
+                                   {kRobotJoint8, 72'000'000}}) {
+    for (const std::int32_t sign : {-1, 1}) {
+      LinkBench bench;
+      ASSERT_EQ(bench.set(name, sign * most), Refusal::kNone);
+      ASSERT_EQ(bench.set(kRobotJoints, 8), Refusal::kNone);
+      EXPECT_EQ(bench.set(kRobotTold, 2), Refusal::kNone);
+      EXPECT_EQ(bench.set(name, sign * (most + 1)), Refusal::kIllegalValue);
+      EXPECT_EQ(bench.get(name), sign * most) << "as it was";
+    }
+  }
+  LinkBench bench;
+  EXPECT_EQ(bench.set(kRobotTold, 3), Refusal::kIllegalValue);
+  EXPECT_EQ(bench.set(kRobotJoints, 9), Refusal::kIllegalValue);
+}
+
 TEST(DialogueCommand, LeanTurnsTheCorrectionAsWell) {
   LinkBench bench;
   ASSERT_EQ(bench.set(kCommand, 8), Refusal::kNone);
@@ -270,12 +338,53 @@ TEST(DialogueCommand, RefusesValuesOutOfTheirLimits) {
   EXPECT_EQ(bench.get(kCommand), 0);
 }
 
+/// Knows tube (3, -4) alone.
+class OneZone final : public ZoneCorrections {
+ public:
+  bool at(core::TubeAddress tube, ZoneAnswer& answer) const override {
+    answer = {{1'234'567, -250'000, 49}, 300'000, 500'000};
+    return tube == core::TubeAddress{3, -4};
+  }
+};
+
+TEST(DialogueZone, TellsTheCorrectionAtTheTubeAskedFor) {
+  const OneZone zones;
+  LinkBench bench;
+  bench.state.identity.zones = &zones;
+  ASSERT_EQ(bench.set(kZoneTubeRow, 3), Refusal::kNone);
+  ASSERT_EQ(bench.set(kZoneTubeColumn, -4), Refusal::kNone);
+
+  EXPECT_EQ(bench.get(kZoneValid), 1);
+  EXPECT_EQ(bench.get(kZoneRow), 3);
+  EXPECT_EQ(bench.get(kZoneColumn), -4);
+  EXPECT_EQ(bench.get(kZoneX), 12'346);
+  EXPECT_EQ(bench.get(kZoneY), -2500);
+  EXPECT_EQ(bench.get(kZoneZ), 0);
+  EXPECT_EQ(bench.get(kZoneSigmaAcross), 3000);
+  EXPECT_EQ(bench.get(kZoneSigmaAlong), 5000);
+
+  ASSERT_EQ(bench.set(kZoneTubeRow, 4), Refusal::kNone);
+  EXPECT_EQ(bench.get(kZoneValid), 0) << "nothing is known of that";
+  EXPECT_EQ(bench.get(kZoneRow), 4);
+  EXPECT_EQ(bench.get(kZoneX), kUnknown);
+  EXPECT_EQ(bench.get(kZoneSigmaAlong), kUnknown);
+  EXPECT_EQ(bench.events.size(), 0u) << "the tracking is not asked";
+}
+
+TEST(DialogueZone, WithoutCorrectionsNothingIsKnown) {
+  LinkBench bench;
+  ASSERT_EQ(bench.set(kZoneTubeRow, 3), Refusal::kNone);
+  EXPECT_EQ(bench.get(kZoneValid), 0);
+  EXPECT_EQ(bench.get(kZoneX), kUnknown);
+  EXPECT_EQ(bench.set(kZoneX, 1), Refusal::kIllegalAddress) << "not to be written";
+}
+
 TEST(Dialogue, OneRequestStaysWithinOneBlock) {
   EXPECT_EQ(Dialogue::check_readable(100, 52), Refusal::kNone);
   EXPECT_EQ(Dialogue::check_readable(100, 53), Refusal::kIllegalAddress);
   EXPECT_EQ(Dialogue::check_readable(99, 2), Refusal::kIllegalAddress);
-  EXPECT_EQ(Dialogue::check_readable(541, 1), Refusal::kNone);
-  EXPECT_EQ(Dialogue::check_readable(542, 1), Refusal::kIllegalAddress);
+  EXPECT_EQ(Dialogue::check_readable(665, 1), Refusal::kNone);
+  EXPECT_EQ(Dialogue::check_readable(666, 1), Refusal::kIllegalAddress);
   EXPECT_EQ(Dialogue::check_readable(65535, 125), Refusal::kIllegalAddress);
   LinkBench bench;
   EXPECT_EQ(bench.set(kSequence, 1), Refusal::kIllegalAddress) << "not to be written";

@@ -1,6 +1,7 @@
 #include "drivers/files/recording_rows.h"
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,47 @@ TEST(EventRows, AreReadBackByReplay) {
   EXPECT_EQ(back.position_nm[0], 1'524'000'001);
   EXPECT_EQ(back.angles_ndeg[2], -3);
   EXPECT_EQ(back.tubes, 17);
+}
+
+TEST(EventRows, KeepWhatTheRobotTellsOfItself) {
+  core::RobotPose place;
+  place.position_nm = {1'234'567'800, -100, 0};
+  core::RobotPose turned = place;
+  turned.turned = true;
+  turned.angles_ndeg = {-359'999'990'000, 70'000, 0};
+  core::RobotPose jointed = turned;
+  jointed.joints = 2;
+  jointed.joints_ndeg = {1'000'000'000, -72'000'000'001};
+  core::RobotPose joints_alone = place;
+  joints_alone.joints = 8;
+  joints_alone.joints_ndeg[7] = 5;
+  const std::vector<core::RobotPose> all = {place, turned, jointed, joints_alone};
+  std::string text = std::string(kEventsHeader) + "\n";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    core::Event event;
+    event.content = core::PoseRequest{all[i]};
+    append_event_row(text, static_cast<std::int64_t>(i), event);
+  }
+  EXPECT_NE(text.find("0,,pose,\"1234.567800,-0.000100,0.000000\",0,,\n"), std::string::npos)
+      << text;
+
+  ReplayEvents events;
+  Messages messages;
+  ASSERT_TRUE(events.parse(text, "e", messages)) << messages.front();
+
+  core::EventList list;
+  events.take_before(9, list);
+  ASSERT_EQ(list.size(), 4);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto told =
+        tests::content_of<core::PoseRequest>(list[static_cast<std::int32_t>(i)]).robot;
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->position_nm, all[i].position_nm);
+    EXPECT_EQ(told->turned, all[i].turned);
+    EXPECT_EQ(told->angles_ndeg, all[i].angles_ndeg);
+    EXPECT_EQ(told->joints, all[i].joints);
+    EXPECT_EQ(told->joints_ndeg, all[i].joints_ndeg);
+  }
 }
 
 TEST(EventRows, KeepIdInstantAndWhatTheClickerSaw) {

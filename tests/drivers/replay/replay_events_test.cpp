@@ -233,9 +233,20 @@ TEST(ReplayEvents, TellsEachWrongRow) {
           "';' for start",
           "a.events.csv:6: values: '1001', expected a level from 0 to 1000 for lamp",
           "a.events.csv:7: values: 'nan,1', expected U,V (pixels) for pick",
-          "a.events.csv:8: values: '1', expected nothing for pose",
+          "a.events.csv:8: values: '1', expected nothing, or the robot's own "
+          "X,Y,Z[,ALPHA,BETA,GAMMA[,JOINT...]] (mm, deg) for pose",
           "a.events.csv:9: 1 cells, expected 4",
           "a.events.csv:11: field: 6, expected no less than in the row before (7)"}));
+}
+
+TEST(ReplayEvents, TellsARobotsPoseThatIsNone) {
+  for (const char* const values :
+       {"1,2", "1,2,3,", "1,2,3,4", "1,2,3,4,5", "1,2,3,4,5,", "1,2,3,,,", "1,2,3,,5,6", "1,2,x",
+        "1,2,3.0000001", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15", "1,2,3,4,5,6,"}) {
+    ReplayEvents events;
+    Messages messages;
+    EXPECT_FALSE(events.parse(kHeader + "0,0,pose,\"" + values + "\"\n", "a", messages)) << values;
+  }
 }
 
 TEST(ReplayEvents, RefusesMoreThanAStepTakes) {

@@ -3,9 +3,8 @@
 #include <string>
 
 namespace tubesight::drivers {
-
-/// Every key that is written, none at its default, as scenario_text() writes it. The true numbers
-/// are sums of powers of two, so that the errors come back to the last bit.
+/// Every key, none at its default, as scenario_text() writes it. True numbers are sums of powers of
+/// two: errors come back to the last bit.
 inline const std::string kEveryKey = R"toml(format = 1
 
 [scenario]
@@ -286,6 +285,39 @@ kind = "salt-pepper"
 at_s = 0.125
 for_s = 0.125
 share = 0.25
+
+[[fault]]
+kind = "blots"
+at_s = 0.125
+for_s = 0.125
+share = 0.0625
+
+[[fault]]
+kind = "reflections"
+at_s = 0.125
+for_s = 0.125
+share = 0.0625
+
+[[fault]]
+kind = "ghost"
+at_s = 0.125
+for_s = 0.125
+share = 0.25
+
+[[fault]]
+kind = "black-level"
+at_s = 0.125
+for_s = 0.125
+level = 32.0
+share = 0.75
+
+[[fault]]
+kind = "covered"
+at_s = 0.125
+for_s = 0.125
+level = 170.0
+share = 0.25
+left = true
 
 [[fault]]
 kind = "frozen"

@@ -1,5 +1,7 @@
 #include "drivers/settings/session_settings.h"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -206,10 +208,29 @@ TEST_F(SessionSettings, RefusesMoreTubesThanItHolds) {
             Messages{"s.toml:24: tubesheet.plugged: 16385 tubes, expected at most 16384"});
 }
 
-TEST_F(SessionSettings, ChecksTheStart) {
-  EXPECT_EQ(load_with(",\n          { row = 40, column = 61, at_px = [387, 186] }", ""),
+TEST_F(SessionSettings, AsksForThreeClicksWhereNoLatticeIsFoundCold) {
+  std::string text = kWhole;
+  const std::string third = ",\n          { row = 40, column = 61, at_px = [387, 186] }";
+  text.erase(text.find(third), third.size());
+
+  EXPECT_EQ(load(text, {true, true, true, true}),
             Messages{"s.toml:26: start.tubes: a list of 2, expected at least 3 times { row = R, "
                      "column = C, at_px = [U, V] }"});
+  EXPECT_EQ(load(text), Messages{});
+  EXPECT_EQ(settings_.start.tubes.size(), 2);
+}
+
+TEST_F(SessionSettings, ReadsTheHeadingOfAStart) {
+  EXPECT_EQ(load(kWhole), Messages{});
+  EXPECT_FALSE(session_->heading_deg);
+
+  ASSERT_EQ(load_with("window_px", "heading_deg = -170.5\nwindow_px"), Messages{});
+  EXPECT_EQ(session_->heading_deg, -170.5);
+
+  EXPECT_EQ(load_with("window_px", "heading_deg = 361\nwindow_px").size(), 1U);
+}
+
+TEST_F(SessionSettings, ChecksTheStart) {
   EXPECT_EQ(load_with("at_px = [321, 251]", "at_px = [321, 480]"),
             Messages{"s.toml:27: start.tubes[1].at_px: (321, 480), expected a place in the picture "
                      "of 635 x 480"});
@@ -294,6 +315,54 @@ TEST_F(SessionSettings, CountsWhatItDoesNotTell) {
 
   ASSERT_EQ(messages.size(), 51u);
   EXPECT_EQ(messages.back(), "s.toml: and 10 more mistakes");
+}
+
+TEST_F(SessionSettings, KeepsTheGuidetubesSilhouette) {
+  SilhouetteSettings told;
+  told.diameter_mm = 18.2;
+  told.length_mm = 33.5;
+  told.edges[0] = {{{270.125, 370.25}, {266.5, 479.0}}, 0.125, true};
+  told.edges[1] = {{}, 0.75, false};
+  told.edges[2] = {{{352.0, 371.5}, {358.25, 479.0}}, 0.25, true};
+  const std::string text = silhouette_text(told);
+
+  ASSERT_EQ(load(kWhole + text), Messages{});
+
+  const SilhouetteSettings& read = session_->silhouette;
+  EXPECT_EQ(read.diameter_mm, 18.2);
+  EXPECT_EQ(read.length_mm, 33.5);
+  for (std::size_t i = 0; i < told.edges.size(); ++i) {
+    EXPECT_EQ(read.edges[i].points_px, told.edges[i].points_px) << i;
+    EXPECT_EQ(read.edges[i].sigma_px, told.edges[i].sigma_px) << i;
+    EXPECT_EQ(read.edges[i].measured, told.edges[i].measured) << i;
+  }
+  ASSERT_EQ(load(kWhole), Messages{});
+  EXPECT_EQ(session_->silhouette.diameter_mm, 0.0) << "of the file before";
+}
+
+TEST_F(SessionSettings, TellsWhatIsWrongWithASilhouette) {
+  const std::string table =
+      "[silhouette]\ndiameter_mm = 0.5\nlength_mm = 33\nleft_px = [[1, 2], [3]]\n"
+      "right_px = [[1, -2]]\nmeasured = [\"top\"]\nsigma_px = [0.1, 0.1]\n";
+  const Messages messages = load(kWhole + table);
+
+  ASSERT_EQ(messages.size(), 5u);
+  const std::string words = messages[0] + messages[1] + messages[2] + messages[3] + messages[4];
+  for (const char* const part :
+       {"silhouette.diameter_mm: 0.5, expected a number from 1 to 200 mm",
+        "expected [u, v], each from 0 to 4096 px", "the text 'top', expected \"left\", \"tip\"",
+        "silhouette.sigma_px: a list of 2, expected 3 times a number"}) {
+    EXPECT_NE(words.find(part), std::string::npos) << part << "\n" << words;
+  }
+}
+
+TEST_F(SessionSettings, TakesAnEflsCorrelationWithTheTool) {
+  ASSERT_EQ(
+      load(kWhole + "[tool_quality]\nid = \"a\"\nfocal_length_correlation = [0.1, 0, -0.9, 0, "
+                    "0, 0.25]\n"),
+      Messages{});
+  EXPECT_EQ(session_->tool_quality.focal_length_correlation,
+            (std::array<double, 6>{0.1, 0.0, -0.9, 0.0, 0.0, 0.25}));
 }
 
 }  // namespace

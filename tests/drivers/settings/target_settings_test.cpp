@@ -44,6 +44,30 @@ TEST_F(CalibrationTarget, MaySayWhichCameraItIsAsACalibrationDoes) {
   EXPECT_EQ(file_.device.model, "Maker Model");
 }
 
+TEST_F(CalibrationTarget, IsWrittenWithPointsAsItReadsBack) {
+  ASSERT_EQ(load(kCameraTable + "[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n" +
+                 kTarget + "lens_mm = 5.2\n" + kViews),
+            Messages{});
+  const TargetFile written = file_;
+
+  ASSERT_EQ(load(target_text(written, {"view-0.csv", "view-1.csv"})), Messages{});
+
+  EXPECT_EQ(file_.camera.width_px, 635);
+  EXPECT_EQ(file_.camera.cell_height_mm, written.camera.cell_height_mm);
+  EXPECT_EQ(file_.camera.scan, written.camera.scan);
+  EXPECT_EQ(file_.camera.frame_columns, 635);
+  EXPECT_EQ(file_.device.serial, "4711");
+  EXPECT_EQ(file_.device.model, "Maker Model");
+  EXPECT_EQ(file_.target.lattice, DotLattice::kStaggered);
+  EXPECT_EQ(file_.target.row_spacing_mm, 1.0392);
+  EXPECT_EQ(file_.target.lens_mm, 5.2);
+  EXPECT_FALSE(file_.target.bright);
+  ASSERT_EQ(file_.views.size(), 2U);
+  EXPECT_EQ(file_.views[0].points, "folder/view-0.csv");
+  EXPECT_TRUE(file_.views[0].staged);
+  EXPECT_FALSE(file_.views[1].staged);
+}
+
 TEST_F(CalibrationTarget, IsReadWithItsViewsFromBesideIt) {
   ASSERT_EQ(load(kCameraTable + kTarget + kViews), Messages{});
 

@@ -185,6 +185,11 @@ TEST(FaultWords, AreOneForEachKind) {
   EXPECT_EQ(name_of(FaultKind::kHeld), "held");
   EXPECT_EQ(name_of(FaultKind::kCompressed), "compressed");
   EXPECT_EQ(name_of(FaultKind::kJitter), "jitter");
+  EXPECT_EQ(name_of(FaultKind::kBlots), "blots");
+  EXPECT_EQ(name_of(FaultKind::kReflections), "reflections");
+  EXPECT_EQ(name_of(FaultKind::kGhost), "ghost");
+  EXPECT_EQ(name_of(FaultKind::kBlackLevel), "black-level");
+  EXPECT_EQ(name_of(FaultKind::kCovered), "covered");
 }
 
 }  // namespace

@@ -265,6 +265,23 @@ TEST_F(CameraFaults, AnotherCameraAtTheSamePlaceIsNotTaken) {
   expect_recovery();
 }
 
+// Its calibration holds for one size; pictures of another are not stretched to it.
+TEST_F(CameraFaults, ACameraThatComesBackWithAnotherSizeIsNotTaken) {
+  bench_.kernel().unplug(0);
+  expect_error(Error::kDisconnected);
+  bench_.camera().widths_of = 80;
+  bench_.kernel().plug(0, bench_.shared_camera());
+
+  const auto started = bench_.start_anew();
+  ASSERT_FALSE(started);
+  EXPECT_EQ(started.error(), Error::kUnsupported);
+  EXPECT_NE(bench_.message().find("offers GREY 80 x 48 progressive, expected"), std::string::npos)
+      << bench_.message();
+
+  bench_.camera().widths_of = 1;
+  expect_recovery();
+}
+
 TEST_F(CameraFaults, ADeviceThatGoesInTheMiddleOfACallIsGone) {
   bench_.camera().results[VIDIOC_DQBUF] = {-ENODEV};
 
@@ -333,6 +350,25 @@ TEST_F(CameraFaults, AnInputThatSomebodySwitchedIsChosenAnew) {
   EXPECT_EQ(bench_.counters().source_changes, 1);
   expect_recovery();
   EXPECT_EQ(bench_.camera().input, 0) << "that of the first start, where the settings name none";
+}
+
+TEST_F(CameraFaults, AnInputThatCannotBeChosenAnewIsNotExchangedForAnother) {
+  bench_.camera().inputs.push_back({"Composite 1", 0});
+  bench_.camera().input = 1;
+  expect_error(Error::kIo);
+  const std::string stands = std::string("camera ") + kByPath +
+                             ": stands at input 1, expected 0, the one that this box has used so "
+                             "far";
+  bench_.camera().results[VIDIOC_S_INPUT] = {-EBUSY};
+  ASSERT_FALSE(bench_.start_anew());
+  EXPECT_EQ(bench_.message(), stands + ": Device or resource busy");
+  bench_.camera().stays_at_input = true;
+  ASSERT_FALSE(bench_.start_anew());
+  EXPECT_EQ(bench_.message(), stands);
+
+  bench_.camera().stays_at_input = false;
+  expect_recovery();
+  EXPECT_EQ(bench_.camera().input, 0);
 }
 
 TEST_F(CameraFaults, OtherEventsAreNone) {

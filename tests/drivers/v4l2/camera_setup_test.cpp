@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/v4l2/camera_finder.h"
 #include "tests/drivers/v4l2/camera_bench.h"
 
 namespace tubesight::tests {
@@ -233,6 +232,10 @@ TEST(CameraSetup, InputsGoByTheirNames) {
   EXPECT_EQ(refusal(bench, Error::kUnsupported), "has no input 'Composite 1', offers 'S-Video'");
 
   bench.camera().inputs.push_back({"Composite 1", 0});
+  bench.camera().stays_at_input = true;
+  EXPECT_EQ(refusal(bench, Error::kIo), "does not keep its input 'Composite 1'");
+
+  bench.camera().stays_at_input = false;
   EXPECT_TRUE(bench.grabber().start());
 }
 
@@ -298,46 +301,6 @@ TEST(CameraSetup, AControlThatIsNotKeptIsRefused) {
   bench.camera().controls[1].keeps = false;
 
   EXPECT_EQ(refusal(bench, Error::kIo), "control 'Gain': is 0, expected 70");
-}
-
-TEST(CameraFinder, ListsWhatSettingsCanName) {
-  FakeKernel kernel;
-  auto grabber = std::make_shared<FakeCamera>();
-  grabber->formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_GREY};
-  auto other = std::make_shared<FakeCamera>();
-  other->serial = "12";
-  auto no_camera = std::make_shared<FakeCamera>();
-  no_camera->caps = V4L2_CAP_META_CAPTURE | V4L2_CAP_STREAMING;
-  kernel.plug(0, grabber);
-  kernel.plug(1, no_camera);
-  kernel.plug(2, other);
-  kernel.link("/dev/v4l/by-path/pci-0", "/dev/video0");
-
-  const auto cameras = drivers::v4l2::list_cameras(kernel);
-
-  ASSERT_EQ(cameras.size(), 2u);
-  EXPECT_EQ(cameras[0].name(), "/dev/v4l/by-path/pci-0");
-  EXPECT_EQ(cameras[0].formats, (std::vector<std::string>{"MJPG (not taken)", "GREY"}));
-  EXPECT_EQ(cameras[0].inputs, (std::vector<std::string>{"S-Video"}));
-  EXPECT_EQ(cameras[0].card, "Grabber");
-  EXPECT_EQ(cameras[1].name(), "serial:12");
-  EXPECT_EQ(kernel.open_devices(), 0);
-}
-
-TEST(CameraFinder, FindsADeviceByWhatStays) {
-  FakeKernel kernel;
-  auto first = std::make_shared<FakeCamera>();
-  auto second = std::make_shared<FakeCamera>();
-  second->bus = "usb-2";
-  second->serial = "12";
-  kernel.plug(4, first);
-  kernel.plug(7, second);
-
-  EXPECT_EQ(drivers::v4l2::find_camera(kernel, "bus:usb-2"), "/dev/video7");
-  EXPECT_EQ(drivers::v4l2::find_camera(kernel, "serial:12"), "/dev/video7");
-  EXPECT_EQ(drivers::v4l2::find_camera(kernel, "serial:13"), "");
-  EXPECT_EQ(drivers::v4l2::find_camera(kernel, "bus:usb-3"), "");
-  EXPECT_EQ(drivers::v4l2::find_camera(kernel, "/dev/v4l/by-path/none"), "");
 }
 
 }  // namespace

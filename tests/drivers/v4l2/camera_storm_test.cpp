@@ -39,12 +39,16 @@ class CameraStorm : public testing::TestWithParam<unsigned> {
 
   /// One buffer in four is wrong in some way.
   void expose(v4l2_buffer& buffer, Memory memory) {
-    const FakeCamera& camera = bench_.camera();
-    bool bad = camera.input != 0;
+    FakeCamera& camera = bench_.camera();
+    bool bad = camera.input != 0 || next_unwritten_;
     if (one_in(4)) {
       bad = spoil(buffer, memory) || bad;
     }
     bad_[memory.data()] = bad;
+    next_unwritten_ = one_in(16);
+    if (next_unwritten_) {
+      camera.unwritten = {{0, 48}};
+    }
   }
 
   bool spoil(v4l2_buffer& buffer, Memory memory) {
@@ -106,6 +110,7 @@ class CameraStorm : public testing::TestWithParam<unsigned> {
 
   std::mt19937 random_{GetParam()};
   std::map<const std::byte*, bool> bad_;
+  bool next_unwritten_ = false;  ///< the driver hands the next buffer out as it got it
   int node_ = 0;
   CameraBench bench_;
 };
@@ -153,6 +158,7 @@ TEST_P(CameraStorm, NothingWrongIsLentAsGood) {
   bench_.camera().poll_results.clear();
   bench_.camera().events.clear();
   bench_.camera().tamper = nullptr;
+  bench_.camera().unwritten.clear();
   bench_.camera().every = core::FieldTime{33'333'333};
   ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
   EXPECT_EQ(bench_.camera().input, 0);

@@ -12,25 +12,41 @@ std::uint32_t bytes_a_pixel(std::uint32_t format) {
   return format == V4L2_PIX_FMT_GREY || format == V4L2_PIX_FMT_NV12 ? 1 : 2;
 }
 
+namespace {
+
+/// The place in the list of a control; the list's length: it has none of this number.
+std::size_t place_of(const FakeCamera& camera, std::uint32_t id) {
+  std::size_t at = 0;
+  while (at < camera.controls.size() &&
+         id != (camera.controls[at].id != 0 ? camera.controls[at].id : at + 1)) {
+    ++at;
+  }
+  return at;
+}
+
+}  // namespace
+
 int query_control(const FakeCamera& camera, v4l2_queryctrl& query) {
-  // Numbered from 1 in the order of the list.
-  const std::uint32_t last = query.id & ~V4L2_CTRL_FLAG_NEXT_CTRL;
-  if (last >= camera.controls.size()) {
+  const bool next = (query.id & V4L2_CTRL_FLAG_NEXT_CTRL) != 0;
+  const std::uint32_t id = query.id & ~V4L2_CTRL_FLAG_NEXT_CTRL;
+  const std::size_t at = !next ? place_of(camera, id) : id == 0 ? 0 : place_of(camera, id) + 1;
+  if (at >= camera.controls.size()) {
     return -EINVAL;
   }
-  const FakeCamera::Control& control = camera.controls[last];
+  const FakeCamera::Control& control = camera.controls[at];
   query = {};
-  query.id = last + 1;
+  query.id = control.id != 0 ? control.id : static_cast<std::uint32_t>(at + 1);
   query.type = control.type;
   query.minimum = control.least;
   query.maximum = control.most;
+  query.default_value = control.usual;
   std::memcpy(query.name, control.name.data(),
               std::min(sizeof query.name - 1, control.name.size()));
   return 0;
 }
 
 int query_menu(const FakeCamera& camera, v4l2_querymenu& menu) {
-  const FakeCamera::Control& control = camera.controls[menu.id - 1];
+  const FakeCamera::Control& control = camera.controls[place_of(camera, menu.id)];
   if (menu.index >= control.entries.size() || control.entries[menu.index].empty()) {
     return -EINVAL;
   }
@@ -41,7 +57,11 @@ int query_menu(const FakeCamera& camera, v4l2_querymenu& menu) {
 }
 
 int serve_control(FakeCamera& camera, bool set, v4l2_control& asked) {
-  FakeCamera::Control& control = camera.controls[asked.id - 1];
+  const std::size_t at = place_of(camera, asked.id);
+  if (at >= camera.controls.size()) {
+    return -EINVAL;
+  }
+  FakeCamera::Control& control = camera.controls[at];
   if (set && control.keeps) {
     control.value = asked.value;
   }
@@ -50,9 +70,12 @@ int serve_control(FakeCamera& camera, bool set, v4l2_control& asked) {
 }
 
 /// A field a buffer, or all lines: as the format says.
-void draw_picture(const v4l2_pix_format& pix, const v4l2_buffer& told,
-                  std::span<std::byte> memory) {
+void draw_picture(const v4l2_pix_format& pix, const v4l2_buffer& told, std::span<std::byte> memory,
+                  std::pair<std::uint32_t, std::uint32_t> unwritten) {
   for (std::uint32_t line = 0; line < pix.height; ++line) {
+    if (line >= unwritten.first && line < unwritten.second) {
+      continue;
+    }
     std::uint32_t v = line;
     if (pix.field == V4L2_FIELD_ALTERNATE) {
       v = 2 * line + (told.field == V4L2_FIELD_BOTTOM ? 1 : 0);

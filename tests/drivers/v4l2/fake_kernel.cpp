@@ -35,12 +35,29 @@ int FakeKernel::calls(unsigned long request) const {
   return at == calls_.end() ? 0 : at->second;
 }
 
-void FakeKernel::change_source(FakeCamera& camera) {
+void FakeKernel::change_source(FakeCamera& camera, std::uint32_t id) {
+  v4l2_event change{};
+  change.type = V4L2_EVENT_SOURCE_CHANGE;
+  change.id = id;
+  tell(camera, change);
+}
+
+void FakeKernel::change_control(FakeCamera& camera, std::uint32_t id, std::int32_t value) {
+  v4l2_control set{id, value};
+  static_cast<void>(serve_control(camera, true, set));
+  v4l2_event change{};
+  change.type = V4L2_EVENT_CTRL;
+  change.id = id;
+  change.u.ctrl.changes = V4L2_EVENT_CTRL_CH_VALUE;
+  tell(camera, change);
+}
+
+void FakeKernel::tell(FakeCamera& camera, const v4l2_event& event) {
+  const std::pair<std::uint32_t, std::uint32_t> what{event.type, event.id};
   for (const auto& [descriptor, opened] : opened_) {
-    if (opened.subscribed && opened.camera.get() == &camera) {
-      v4l2_event change{};
-      change.type = V4L2_EVENT_SOURCE_CHANGE;
-      camera.events.push_back(change);
+    const bool told = std::ranges::find(opened.subscribed, what) != opened.subscribed.end();
+    if (told && opened.camera.get() == &camera) {
+      camera.events.push_back(event);
     }
   }
 }
@@ -53,6 +70,9 @@ int FakeKernel::open(const std::string& path) {
   const int number = std::stoi(real.substr(std::strlen("/dev/video")));
   Opened opened;
   opened.camera = cameras_.at(number);
+  if (opened.camera->opening != 0) {
+    return opened.camera->opening;
+  }
   opened.number = number;
   opened_[next_descriptor_] = std::move(opened);
   return next_descriptor_++;
@@ -112,9 +132,12 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       }
       put(input.name, camera.inputs[input.index].name);
       input.status = camera.inputs[input.index].status;
+      input.std = camera.inputs[input.index].standards;
       return 0;
     }
-    case VIDIOC_S_INPUT: camera.input = *static_cast<int*>(argument); return 0;
+    case VIDIOC_S_INPUT:
+      camera.input = camera.stays_at_input ? camera.input : *static_cast<int*>(argument);
+      return 0;
     case VIDIOC_G_INPUT:
       *static_cast<int*>(argument) = camera.input;
       return camera.inputs.empty() ? -ENOTTY : 0;
@@ -127,6 +150,7 @@ int FakeKernel::answer(Opened& opened, unsigned long request, void* argument) {
       *static_cast<v4l2_std_id*>(argument) = camera.standard;
       return camera.standard == 0 ? -ENODATA : 0;
     case VIDIOC_QUERYSTD:
+      now_ += camera.sensing;
       *static_cast<v4l2_std_id*>(argument) = camera.sensed;
       return camera.sensed == 0 ? -ENOTTY : 0;
     default: return answer_format(opened, request, argument);
@@ -167,7 +191,11 @@ int FakeKernel::answer_format(Opened& opened, unsigned long request, void* argum
 int FakeKernel::answer_stream(Opened& opened, unsigned long request, void* argument) {
   FakeCamera& camera = *opened.camera;
   switch (request) {
-    case VIDIOC_SUBSCRIBE_EVENT: opened.subscribed = true; return 0;
+    case VIDIOC_SUBSCRIBE_EVENT: {
+      const auto& wanted = *static_cast<v4l2_event_subscription*>(argument);
+      opened.subscribed.emplace_back(wanted.type, wanted.id);
+      return 0;
+    }
     case VIDIOC_DQEVENT: {
       if (camera.events.empty()) {
         return -ENOENT;
@@ -293,7 +321,13 @@ void FakeKernel::expose(Opened& opened) {
   opened.queue.erase(opened.queue.begin());
   Buffer& buffer = opened.buffers[told.index];
   buffer.told = told;
-  draw_picture(opened.format, told, std::span(buffer.memory).subspan(camera.data_offset));
+  std::pair<std::uint32_t, std::uint32_t> unwritten;
+  if (!camera.unwritten.empty()) {
+    unwritten = camera.unwritten.front();
+    camera.unwritten.pop_front();
+  }
+  draw_picture(opened.format, told, std::span(buffer.memory).subspan(camera.data_offset),
+               unwritten);
   if (camera.tamper) {
     camera.tamper(number, buffer.told, buffer.memory);
   }
@@ -334,49 +368,6 @@ int FakeKernel::poll(int descriptor, short events, int timeout_ms) {
     return 0;
   }
   return POLLIN;
-}
-
-std::vector<std::string> FakeKernel::list(const std::string& folder) {
-  std::vector<std::string> names;
-  if (folder == "/sys/class/video4linux") {
-    for (const auto& [number, camera] : cameras_) {
-      names.push_back("video" + std::to_string(number));
-    }
-  }
-  for (const auto& [from, to] : links_) {
-    if (from.starts_with(folder + "/")) {
-      names.push_back(from.substr(folder.size() + 1));
-    }
-  }
-  return names;
-}
-
-std::string FakeKernel::real_path(const std::string& path) {
-  const std::string sysfs = "/sys/class/video4linux/";
-  if (path.starts_with(sysfs)) {
-    return "/sys/devices/" + path.substr(sysfs.size());
-  }
-  const auto link = links_.find(path);
-  const std::string real = link == links_.end() ? path : link->second;
-  const std::string node = "/dev/video";
-  if (!real.starts_with(node) || !cameras_.contains(std::stoi(real.substr(node.size())))) {
-    return {};
-  }
-  return real;
-}
-
-std::string FakeKernel::first_line(const std::string& path) {
-  // As on USB: the serial number stands one level above the interface, and that of a hub above.
-  if (path == "/sys/devices/serial") {
-    return "of the hub";
-  }
-  const std::string begin = "/sys/devices/video";
-  if (!path.starts_with(begin) || !path.ends_with("/serial") ||
-      path.find("/device/") != std::string::npos) {
-    return {};
-  }
-  const auto at = cameras_.find(std::stoi(path.substr(begin.size())));
-  return at == cameras_.end() ? std::string() : at->second->serial;
 }
 
 }  // namespace tubesight::tests

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <linux/videodev2.h>
@@ -25,8 +26,11 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
   /// A path that leads to another.
   void link(const std::string& from, const std::string& to) { links_[from] = to; }
 
-  /// A camera's source changes: whoever has subscribed to it is told, and nobody else ever.
-  void change_source(FakeCamera& camera);
+  /// A camera's source changes, told with this number: whoever has subscribed to it is told, and
+  /// nobody else ever.
+  void change_source(FakeCamera& camera, std::uint32_t id = 0);
+  /// A control gets another value, told in the same way.
+  void change_control(FakeCamera& camera, std::uint32_t id, std::int32_t value);
 
   void advance(core::FieldTime by) { now_ += by; }
   [[nodiscard]] core::FieldTime now() const override { return now_; }
@@ -61,7 +65,7 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
     std::vector<std::uint32_t> queue;
     std::vector<std::uint32_t> done;
     bool streams = false;
-    bool subscribed = false;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> subscribed;  ///< types and numbers
     std::uint32_t sequence = 0;
     bool bottom = false;  ///< the next of alternate fields
     core::FieldTime next{0};
@@ -73,6 +77,7 @@ class FakeKernel final : public drivers::v4l2::Kernel, public hal::Clock {
   int answer_stream(Opened& opened, unsigned long request, void* argument);
   int set_format(Opened& opened, v4l2_format& format) const;
   [[nodiscard]] bool others_stream(const Opened& opened) const;
+  void tell(FakeCamera& camera, const v4l2_event& event);
   int give_buffers(Opened& opened, v4l2_requestbuffers& wanted) const;
   int dequeue(Opened& opened, v4l2_buffer& buffer);
   void expose(Opened& opened);

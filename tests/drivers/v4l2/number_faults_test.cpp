@@ -56,6 +56,20 @@ TEST_F(NumbersAndStamps, FieldsThatNobodyTakesInTimeAreLostAndCounted) {
   EXPECT_TRUE(bench_.good_within(1));
 }
 
+TEST_F(NumbersAndStamps, ACounterThatWrapsIsNoGap) {
+  bench_.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) {
+    buffer.sequence += 0xffff'fffd;  // of 32 bits
+  };
+  for (int i = 0; i < 8; ++i) {
+    const auto lease = bench_.grab();
+    ASSERT_TRUE(lease);
+    EXPECT_EQ(lease->field().status, FieldStatus::kGood);
+    EXPECT_EQ(lease->field().sequence, i);
+  }
+  EXPECT_EQ(bench_.counters().lost_fields, 0);
+  EXPECT_EQ(bench_.counters().counter_back, 0);
+}
+
 TEST_F(NumbersAndStamps, ACounterThatGoesBackIsToldByAGap) {
   ASSERT_TRUE(bench_.good_within(1));
   ASSERT_TRUE(bench_.good_within(1));
@@ -102,6 +116,23 @@ TEST_F(NumbersAndStamps, StampsOfAnotherClockThatTheDriverNamesAreNotListenedTo)
   EXPECT_FALSE(bench_.report().stamps);
 }
 
+TEST_F(NumbersAndStamps, StampsOfAnotherClockThatTheDriverDoesNotNameAreWrongAndThenNotListenedTo) {
+  bench_.camera().tamper = [](auto, v4l2_buffer& buffer, Memory) {
+    buffer.timestamp.tv_sec += 1'700'000'000;  // the clock on the wall
+  };
+
+  EXPECT_EQ(bench_.next_status(), FieldStatus::kDamaged);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
+  EXPECT_TRUE(bench_.good_within(8)) << "by the instant of arrival from then on";
+  EXPECT_EQ(bench_.counters().wrong_stamps, 8);
+  EXPECT_FALSE(bench_.report().stamps);
+
+  bench_.camera().tamper = nullptr;
+  ASSERT_TRUE(bench_.start_anew());
+  EXPECT_TRUE(bench_.good_within(1));
+  EXPECT_TRUE(bench_.report().stamps) << "a new stream is listened to";
+}
+
 TEST(WithoutStamps, ADriverWhoseClockIsInThePastMayBeLeftUnheard) {
   drivers::V4l2Settings settings = settings_of();
   settings.use_stamps = false;
@@ -125,6 +156,17 @@ TEST_F(NumbersAndStamps, WithoutStampsWhatLayThereIsDamaged) {
     EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
   }
   EXPECT_TRUE(bench_.good_within(1));
+}
+
+// One that is there as soon as the stream begins is of the stream before.
+TEST_F(NumbersAndStamps, WithoutStampsAFirstPictureThatIsThereAtOnceIsDamaged) {
+  bench_.grabber().stop();
+  bench_.camera().stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
+  bench_.camera().every = core::FieldTime{1};  // the fake's way to have one at once
+  ASSERT_TRUE(bench_.grabber().start());
+
+  EXPECT_EQ(bench_.next_status(), FieldStatus::kDamaged);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStamps);
 }
 
 TEST_F(NumbersAndStamps, WithoutStampsAPictureThatHadToBeWaitedForIsNew) {

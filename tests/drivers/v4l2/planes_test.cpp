@@ -65,15 +65,19 @@ class CameraPictures : public testing::TestWithParam<Picture> {
     drivers::V4l2Settings settings = settings_of(picture.scan);
     settings.width_px = picture.width_px;
     settings.height_px = picture.height_px;
+    settings.fields_per_s = 120.0;
     CameraBench bench(settings);
     if (planes) {
       in_planes(bench.camera());
     }
     const bool progressive = picture.scan == Scan::kProgressive;
+    bench.camera().frame_time = progressive ? v4l2_fract{1, 120} : v4l2_fract{1, 60};
+    bench.camera().every = core::FieldTime{progressive ? 8'333'333 : 16'666'667};
     bench.camera().fields = {progressive ? V4L2_FIELD_NONE : V4L2_FIELD_INTERLACED};
     bench.camera().formats = {picture.format};
     bench.camera().padding_bytes = picture.padding_bytes;
     ASSERT_TRUE(bench.grabber().start()) << bench.message();
+    EXPECT_EQ(bench.grabber().span(), core::FieldTime{8'333'333});
     for (int i = 0; i < (progressive ? 1 : 2); ++i) {
       const auto lease = bench.grab();
       ASSERT_TRUE(lease);

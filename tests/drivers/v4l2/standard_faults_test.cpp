@@ -90,6 +90,47 @@ TEST_P(StandardFaults, ASignalThatChangesIsNamedAndDamagedUntilItIsBack) {
   EXPECT_EQ(bench_.report().trouble, CameraTrouble::kNone);
 }
 
+// It sleeps with the lock in hand that the calls for buffers need.
+TEST_P(StandardFaults, ADriverThatTakesLongToSenseIsAskedWhereNoPictureIsGoodAnyway) {
+  camera().sensed = own();
+  camera().sensing = std::chrono::milliseconds(100);
+  ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(bench_.next_status(), FieldStatus::kGood);
+    bench_.grabber().look_after();
+  }
+  EXPECT_EQ(bench_.kernel().calls(VIDIOC_QUERYSTD), 1) << "at the opening, before the stream";
+
+  // Another camera is plugged in, and then the right one.
+  const auto look_with = [&](std::uint32_t status, v4l2_std_id sensed) {
+    camera().inputs[0].status = status;
+    camera().sensed = sensed;
+    bench_.grabber().look_after();
+    static_cast<void>(bench_.next_status());  // of the frame before
+    return bench_.next_status();
+  };
+  EXPECT_EQ(look_with(V4L2_IN_ST_NO_SIGNAL, own()), FieldStatus::kDamaged);
+  EXPECT_EQ(look_with(0, other()), FieldStatus::kDamaged);
+  EXPECT_EQ(bench_.report().trouble, CameraTrouble::kStandard);
+  EXPECT_EQ(look_with(0, own()), FieldStatus::kGood);
+  bench_.grabber().look_after();
+  EXPECT_EQ(bench_.kernel().calls(VIDIOC_QUERYSTD), 3);
+}
+
+TEST_P(StandardFaults, ADriverThatRefusesToSenseWhileItStreamsIsNotAskedAgain) {
+  camera().sensed = own();
+  camera().results[VIDIOC_QUERYSTD] = {0, -EBUSY};
+  ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(bench_.next_status(), FieldStatus::kGood);
+    bench_.grabber().look_after();
+  }
+  EXPECT_EQ(bench_.kernel().calls(VIDIOC_QUERYSTD), 2) << "that of the opening, and the refused";
+
+  ASSERT_TRUE(bench_.start_anew()) << bench_.message();
+  EXPECT_EQ(bench_.kernel().calls(VIDIOC_QUERYSTD), 4) << "a new stream may bear it";
+}
+
 // Most grabbers cannot say it: the fields come at the pace of the other standard.
 TEST_P(StandardFaults, WhereTheDriverCannotSayItThePaceDoes) {
   ASSERT_TRUE(bench_.grabber().start()) << bench_.message();
@@ -162,6 +203,21 @@ TEST(SourceChange, WithinAnOpeningIsNeverMissed) {
     bench.camera().events.clear();
     ASSERT_TRUE(bench.start_anew());
     EXPECT_TRUE(bench.good_within(1));
+  }
+}
+
+// Drivers tell it with the number of the input, or with 0 whatever the input.
+TEST(SourceChange, IsHeardWithWhateverNumberItIsTold) {
+  for (const std::uint32_t id : {0U, 1U}) {
+    auto settings = settings_of();
+    settings.input = "Composite 1";
+    CameraBench bench(settings);
+    bench.camera().inputs.push_back({"Composite 1", 0});
+    ASSERT_TRUE(bench.grabber().start()) << bench.message();
+    bench.kernel().change_source(bench.camera(), id);
+
+    EXPECT_EQ(bench.grab().error(), Error::kIo) << id;
+    EXPECT_EQ(bench.report().trouble, CameraTrouble::kSourceChanged);
   }
 }
 

@@ -92,6 +92,25 @@ TEST_F(LampRuns, AFrozenStoreIsNamedAndCounted) {
   EXPECT_LE(result.counts.named_ms_most, 10'000);
 }
 
+// Another toolhead's picture soon after the start, while the level is still led to its place: one
+// that changes the light at once, and one that the level cannot bring to its place. Both went on
+// being vouched for until the end, the first as proved.
+TEST_F(LampRuns, AnothersPictureSoonAfterTheStartIsNamed) {
+  for (const std::int64_t number : {59, 14}) {
+    const LampRun run = make(number);
+    ASSERT_EQ(lamp_kind_name(lamp_kind_of(run)), "other-camera/goes-on");
+
+    const LampResult result = LampRunner().run(*scenario_, run);
+
+    ASSERT_TRUE(result.runs);
+    EXPECT_EQ(result.named, "unseen") << number;
+    EXPECT_EQ(result.counts[LampCount::kProved], 1) << number;
+    EXPECT_EQ(result.counts[LampCount::kFalseAlarms], 0) << number;
+    EXPECT_LE(result.counts.named_ms_most, 5'000) << number;
+    EXPECT_LE(result.counts[LampCount::kWrong], 100) << number << ": not while it is in doubt";
+  }
+}
+
 TEST_F(LampRuns, AFaultThatNobodyTellsStaysWithoutAName) {
   LampRun run = make(3);
   scenario_->video.length_s = scenario_->faults.front().at_s + 0.3;

@@ -45,7 +45,7 @@ TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
     }
   }
   EXPECT_EQ(std::string(kDesign), "design-4");
-  EXPECT_EQ(digest, 0x30013d8e73138595ULL);
+  EXPECT_EQ(digest, 0xde8ac55ff981aa69ULL);
 }
 
 TEST_F(RandomMove, IsOfItsStratum) {
@@ -88,38 +88,58 @@ TEST_F(RandomMove, KeepsToTheLimitsOfMotionUnlessItJumps) {
   }
 }
 
+// But for a start that is wrong on purpose: whoever clicked named other tubes, all off alike.
 TEST_F(RandomMove, HasThreeClicksOnOpenTubesThatStandWhereTheyAreSaidTo) {
+  int wrong_starts = 0;
   for (std::int64_t move = 0; move < kStrata; ++move) {
     const Scenario& scenario = make(move);
     const auto truth = std::make_unique<core::rendering::Truth>();
     ASSERT_TRUE(truth->configure(scenario.scene).has_value());
     const auto T_sheet_tool = core::kinematics::transform_of(scenario.from);
     ASSERT_EQ(scenario.told.start.tubes.size(), 3);
+    int wrong_clicks = 0;
     for (const auto& click : scenario.told.start.tubes) {
-      EXPECT_EQ(truth->tube_ends().at(click.address).kind, core::rendering::TubeEndKind::kOpen);
       const auto image = truth->tube_image(T_sheet_tool, click.address);
       ASSERT_TRUE(image.has_value());
       const double du = (click.at_px[0] - image->ellipse_px[0]) / image->half_px[0];
       const double dv = (click.at_px[1] - image->ellipse_px[1]) / image->half_px[1];
-      EXPECT_LE(std::hypot(du, dv), 0.6 + 1e-9);
+      wrong_clicks += std::hypot(du, dv) > 0.6 + 1e-9 ? 1 : 0;
     }
+    EXPECT_TRUE(wrong_clicks == 0 || wrong_clicks == 3) << move;
+    const bool jumps = stratum_at(stratum_of_move(move)).fault == FaultGroup::kJump;
+    EXPECT_TRUE(jumps || wrong_clicks == 0) << move;
+    wrong_starts += wrong_clicks == 3 ? 1 : 0;
   }
+  EXPECT_GT(wrong_starts, 0);
+  EXPECT_LT(wrong_starts, 8);
 }
 
 TEST_F(RandomMove, DrawsAllFaultsOfTheList) {
   std::array<int, drivers::kFaultKinds> drawn{};
   int beside_the_lattice = 0;
-  for (std::int64_t move = 0; move < 2 * kStrata; ++move) {
+  int leds_alone = 0;
+  int restarts = 0;
+  for (std::int64_t move = 0; move < 6 * kStrata; ++move) {
+    // The pictures' kinds are the most.
+    if (move >= 2 * kStrata && stratum_at(stratum_of_move(move)).fault != FaultGroup::kPicture) {
+      continue;
+    }
     const Scenario& scenario = make(move);
     for (const auto& fault : scenario.faults) {
       ++drawn.at(static_cast<std::size_t>(fault.kind));
       const bool whole_move = fault.kind == drivers::FaultKind::kCompressed ||
                               fault.kind == drivers::FaultKind::kJitter;
-      EXPECT_EQ(fault.at_s > 0.0, !whole_move);
+      const bool from_the_start = whole_move || fault.kind >= drivers::FaultKind::kBlots ||
+                                  fault.kind == drivers::FaultKind::kSaltPepper;
+      EXPECT_TRUE(fault.at_s > 0.0 || from_the_start);
+      EXPECT_TRUE(fault.at_s == 0.0 || !whole_move);
       EXPECT_LE(fault.at_s + fault.for_s, scenario.video.length_s + 1e-9);
     }
     const bool jumps = stratum_at(stratum_of_move(move)).fault == FaultGroup::kJump;
-    beside_the_lattice += jumps && scenario.faults.empty() ? 1 : 0;
+    beside_the_lattice += jumps && scenario.faults.empty() && scenario.events.empty() ? 1 : 0;
+    leds_alone += scenario.light.lamp_permille == 0 && scenario.light.ring > 0.0 ? 1 : 0;
+    EXPECT_TRUE(jumps || scenario.events.empty());
+    restarts += static_cast<int>(scenario.events.size());
   }
   for (std::size_t kind = 0; kind < drawn.size(); ++kind) {
     const auto fault = static_cast<drivers::FaultKind>(kind);
@@ -130,6 +150,8 @@ TEST_F(RandomMove, DrawsAllFaultsOfTheList) {
     EXPECT_GT(drawn.at(kind), 0) << drivers::kFaultWords.at(kind);
   }
   EXPECT_GT(beside_the_lattice, 0);
+  EXPECT_GT(leds_alone, 0);
+  EXPECT_GT(restarts, 0);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ TEST(MachineDevices, NetworkCamerasAreListedByAddressAndThoseOfUsbByNumber) {
   EXPECT_EQ(network_cameras_text({{"21877", "192.168.1.20", "Maker Model", "GigEVision"},
                                   {"", "192.168.1.21", "Maker Other", "GigEVision"},
                                   {"A-3", "USB3", "Maker Third", "USB3Vision"}}),
-            "network cameras, by the device to write into [source]:\n"
+            "network cameras, by the device to write into [source] of kind \"aravis\":\n"
             "  address:192.168.1.20\n"
             "      Maker Model, GigEVision\n"
             "      also serial:21877\n"
@@ -32,32 +32,48 @@ TEST(MachineDevices, ACameraIsListedByWhatStaysWithWhatItOffers) {
   grabber.card = "Grabber";
   grabber.driver = "em28xx";
   grabber.inputs = {"Composite", "S-Video"};
+  grabber.standards = {"NTSC", "PAL"};
+  grabber.standard = "PAL";
+  grabber.taken = true;
+  grabber.controls = {"Brightness", "Contrast"};
   grabber.formats = {"YUYV 720 x 480", "MJPG 720 x 480 (not taken)"};
   drivers::v4l2::CameraInfo usb = grabber;
   usb.node = "/dev/video2";
   usb.serial = "4711";
+  usb.taken = false;
   usb.inputs.clear();
+  usb.standards.clear();
+  usb.controls.clear();
   usb.formats.clear();
   drivers::v4l2::CameraInfo busy;
   busy.node = "/dev/video4";
   busy.by_id = "/dev/v4l/by-id/c";
-  busy.busy = true;
+  busy.refused = "Permission denied";
+  drivers::v4l2::CameraInfo twin = usb;
+  twin.alone = false;
 
-  EXPECT_EQ(cameras_text({grabber, usb, busy}),
-            "cameras, by the device to write into [source]:\n"
+  EXPECT_EQ(cameras_text({grabber, usb, busy, twin}),
+            "cameras, by the device to write into [source] of kind \"v4l2\":\n"
             "  /dev/v4l/by-path/pci-0\n"
             "      /dev/video0, Grabber, driver em28xx, bus:usb-1\n"
+            "      busy: another program takes its pictures\n"
             "      says no serial number\n"
             "      calibration: model = \"em28xx Grabber\"\n"
             "      inputs: Composite, S-Video\n"
+            "      standards: NTSC, PAL; set to PAL\n"
             "      YUYV 720 x 480\n"
             "      MJPG 720 x 480 (not taken)\n"
+            "      controls: Brightness, Contrast\n"
             "  serial:4711\n"
             "      /dev/video2, Grabber, driver em28xx, bus:usb-1\n"
             "      also /dev/v4l/by-path/pci-0\n"
             "      calibration: serial = \"4711\", model = \"em28xx Grabber\"\n"
             "  /dev/v4l/by-id/c\n"
-            "      /dev/video4, cannot be opened: busy, or of another user\n");
+            "      /dev/video4, cannot be opened: Permission denied\n"
+            "  /dev/v4l/by-path/pci-0\n"
+            "      /dev/video2, Grabber, driver em28xx, bus:usb-1\n"
+            "      not named by its serial number, which another one has, too\n"
+            "      calibration: serial = \"4711\", model = \"em28xx Grabber\"\n");
 }
 
 TEST(MachineDevices, GpioChipsAreListedWithTheirLinesAndUsers) {

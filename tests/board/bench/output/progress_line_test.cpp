@@ -47,6 +47,19 @@ TEST(ProgressLine, WritesNothingWhenItIsNotShown) {
   EXPECT_EQ(stream.text(), "");
 }
 
+TEST(ProgressLine, SaysWordsOfAnotherJobOverLongerOnes) {
+  const Stream stream;
+  {
+    ProgressLine line(stream.file(), true);
+    line.update(kStart, "view 1 of 12");
+    line.update(kStart + seconds(1), "view 10 of 12");
+    line.update(kStart + seconds(1) + milliseconds(249), "view 11 of 12");
+    line.update(kStart + seconds(2), "view 12");
+  }
+
+  EXPECT_EQ(stream.text(), "\rview 10 of 12\rview 12      \r             \r");
+}
+
 TEST(ProgressLine, WritesNothingForAShortJob) {
   const Stream stream;
   {
@@ -85,6 +98,17 @@ TEST(ProgressLine, IsErasedToItsLastCharacter) {
   ASSERT_EQ(first.size(), second.size());
   EXPECT_EQ(stream.text(),
             "\r" + first + "\r" + second + "\r" + std::string(first.size(), ' ') + "\r");
+}
+
+TEST(ProgressLine, SaysTheWordsOfAnyJobOverThoseBefore) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, "docking 1 of 12");
+  line.update(kStart + seconds(1), "docking 10 of 12");
+  line.update(kStart + seconds(2), "check");
+
+  // The shorter one is padded to what stood there.
+  EXPECT_EQ(stream.text(), "\rdocking 10 of 12\rcheck           ");
 }
 
 }  // namespace

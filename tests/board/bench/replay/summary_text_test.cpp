@@ -113,7 +113,7 @@ TEST(SummaryText, TellsWhyAStartWasRefused) {
                        "0.000 s (cut short)\n"))
       << text;
   EXPECT_NE(text.find("  start at 0.000 s refused: no-tube-there: no dark tube-end around a "
-                      "click\n"),
+                      "click: plate, or no light of the lamp\n"),
             std::string::npos)
       << text;
   EXPECT_NE(text.find("  tubes visited: 0\n"), std::string::npos) << text;

@@ -1,0 +1,125 @@
+#include "board/bench/calibrate/camera_exchange.h"
+
+#include <array>
+
+#include "board/bench/calibrate/calibration_file.h"
+#include "board/bench/calibrate/camera_text.h"
+#include "board/bench/output/output_paths.h"
+#include "board/bench/output/text_output.h"
+#include "core/calibration/opencv_lens.h"
+#include "drivers/camera_yaml/camera_yaml.h"
+#include "drivers/files/decimal.h"
+#include "drivers/settings/session_text.h"
+#include "drivers/settings/text_files.h"
+#include "drivers/settings/toml_writer.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::calibration::CameraValues;
+using core::calibration::ConversionResidual;
+
+constexpr double kCell_mm = 0.01;
+constexpr double kMost_px = 1.0;  // what tracking allows
+
+CameraValues values_of(const core::CameraSettings& camera) {
+  CameraValues values = CameraValues::Zero();
+  values.head<6>() << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
+      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
+  return values;
+}
+
+/// Cells as large as a pixel, for a file without millimetres.
+core::CameraSettings plain_camera(const drivers::CameraYaml& yaml) {
+  core::CameraSettings camera;
+  camera.width_px = yaml.width_px;
+  camera.height_px = yaml.height_px;
+  camera.scan = core::Scan::kProgressive;
+  camera.cell_width_mm = kCell_mm;
+  camera.cell_height_mm = kCell_mm;
+  camera.sensor_columns = yaml.width_px;
+  camera.frame_columns = yaml.width_px;
+  return camera;
+}
+
+ExitStatus fail(const std::string& message, ExitStatus status) {
+  tell(message);
+  return status;
+}
+
+}  // namespace
+
+CameraExport export_camera(const core::CameraSettings& camera, const std::string& serial,
+                           bool opencv) {
+  const core::calibration::Sensor sensor = core::calibration::sensor_of(camera);
+  ConversionResidual residual;
+  const auto lens = core::calibration::opencv_lens_of(sensor, values_of(camera), residual);
+  drivers::CameraYaml yaml;
+  yaml.name = serial.empty() ? "tubesight" : serial;
+  yaml.width_px = camera.width_px;
+  yaml.height_px = camera.height_px;
+  yaml.fx_px = lens.fx_px;
+  yaml.fy_px = lens.fy_px;
+  yaml.cx_px = lens.cx_px;
+  yaml.cy_px = lens.cy_px;
+  yaml.distortion = lens.distortion;
+  CameraExport result;
+  result.text =
+      camera_yaml_text(yaml, opencv ? drivers::YamlManner::kOpencv : drivers::YamlManner::kRos);
+  drivers::print(result.report,
+                 "  exported             k1, k2, k3 follow this lens to %.4f px RMS over the "
+                 "picture, %.4f px at worst\n",
+                 residual.rms_px, residual.worst_px);
+  return result;
+}
+
+ExitStatus run_import_camera(const ImportCameraOptions& options) {
+  const std::string clash = find_clash(std::array{NamedPath{"the camera's file", options.file}},
+                                       std::array{NamedPath{"--out", options.out}});
+  if (!clash.empty()) {
+    return fail(clash, ExitStatus::kWrongInput);
+  }
+  std::string text;
+  std::string reason;
+  drivers::DiskFiles files;
+  if (!files.read(options.file, text, reason)) {
+    return fail(options.file + ": " + reason, ExitStatus::kWrongInput);
+  }
+  drivers::CameraYaml yaml;
+  drivers::Messages messages;
+  if (!read_camera_yaml(text, options.file, yaml, messages)) {
+    tell(messages);
+    return ExitStatus::kWrongInput;
+  }
+  const core::CameraSettings plain = plain_camera(yaml);
+  ConversionResidual residual;
+  const auto values = core::calibration::camera_of(
+      core::calibration::sensor_of(plain),
+      {yaml.fx_px, yaml.fy_px, yaml.cx_px, yaml.cy_px, yaml.distortion}, residual);
+  if (!values) {
+    return fail(options.file +
+                    ": no camera: its distortion folds within the picture, expected a "
+                    "pixel's ray to be one",
+                ExitStatus::kJobFailed);
+  }
+  std::string report;
+  drivers::print(report,
+                 "camera imported, %d x %d px: k and k2 follow its distortion to %.4f px RMS over "
+                 "the picture, %.4f px at worst\n",
+                 yaml.width_px, yaml.height_px, residual.rms_px, residual.worst_px);
+  if (!write_out(report)) {
+    return ExitStatus::kJobFailed;
+  }
+  if (!(residual.rms_px <= kMost_px)) {
+    return fail(options.file +
+                    ": no camera: that is more than 1 px, expected a lens that k and k2 "
+                    "follow; calibrate it with calibrate camera",
+                ExitStatus::kJobFailed);
+  }
+  drivers::TomlWriter toml(drivers::TomlManner::kPlain);
+  drivers::write_camera(toml, calibrated(plain, *values));
+  return options.out.empty() || write_settings(options.out, toml.take()) ? ExitStatus::kDone
+                                                                         : ExitStatus::kJobFailed;
+}
+
+}  // namespace tubesight::board

@@ -1,0 +1,238 @@
+// `tubesight calibrate camera` between pictures and points, on what it must tell or refuse of a
+// template, and for a type of camera.
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/detection/drawn_lattice.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/system/program.h"
+
+namespace tubesight::tests {
+namespace {
+
+using support::TemporaryFolder;
+
+/// A camera of EFL 5 mm and cells of 0.01 mm, and 10 by 10 points 8 mm apart.
+std::string target_of(const std::string& more, double dot_mm = 0.0) {
+  return "[camera]\nwidth_px = 640\nheight_px = 480\nscan = \"progressive\"\n"
+         "cell_width_mm = 0.01\ncell_height_mm = 0.01\nsensor_columns = 640\n"
+         "frame_columns = 640\n[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n"
+         "[target]\nrows = 10\ncolumns = 10\nspacing_mm = 8.0\ndot_mm = " +
+         std::to_string(dot_mm) + "\n" + more;
+}
+
+std::string view_of(const std::string& source, const std::string& height_mm = "") {
+  return "[[view]]\n" + source + "\n" +
+         (height_mm.empty() ? "" : "height_mm = " + height_mm + "\n");
+}
+
+/// Points as the camera sees them from `away`, leaning by the sine `lean`; `depth` out of the plane
+/// in steps and `wave` along it, mm.
+struct Points {
+  double away = 82.0;
+  double lean = 0.005;
+  double depth = 0.0;
+  double wave = 0.0;
+  bool exchanged = false;
+
+  [[nodiscard]] std::string text() const {
+    std::string rows = depth > 0.0 ? "x_mm,y_mm,z_mm,u_px,v_px\n" : "x_mm,y_mm,u_px,v_px\n";
+    for (int i = 0; i < 100; ++i) {
+      const double x = 8.0 * (i % 10);
+      const double y = 8.0 * (i / 10);
+      const double z = depth * (i * 7 % 3);
+      const double cosine = std::sqrt(1.0 - lean * lean);
+      const double far = away + lean * (y - 36.0) + cosine * z;
+      const double ideal_x = 5.0 * (x + wave * std::sin(x / 12.0) - 36.0) / far;
+      const double ideal_y = 5.0 * (cosine * (y - 36.0) - lean * z) / far;
+      double factor = 1.0;
+      for (int k = 0; k < 60; ++k) {
+        factor = 1.0 + 0.01 * (ideal_x * ideal_x + ideal_y * ideal_y) / (factor * factor);
+      }
+      rows += std::to_string(exchanged ? y : x) + "," + std::to_string(exchanged ? x : y) + "," +
+              (depth > 0.0 ? std::to_string(z) + "," : "") +
+              std::to_string(310.0 + 100.0 * ideal_x / factor) + "," +
+              std::to_string(245.0 + 100.0 * ideal_y / factor) + "\n";
+    }
+    return rows;
+  }
+};
+
+/// Bright dots of 4 mm, as a picture.
+void draw_dots(const TemporaryFolder& folder, const std::string& name, double away) {
+  core::detection::DrawnLattice drawn;
+  drawn.distortion = 0.25;
+  drawn.background = 12.0;
+  drawn.inside = 170.0;
+  drawn.noise = 0.5;
+  drawn.rows = 10;
+  drawn.columns = 10;
+  drawn.turn_deg = 0.7;
+  drawn.tilt_deg = 0.3;
+  drawn.distance = away / 4.0;
+  static_cast<void>(drawn.draw());
+  std::string text = "P5\n640 480\n255\n";
+  for (const std::uint16_t pixel : drawn.pixels) {
+    text += static_cast<char>((pixel + 128) / 256);
+  }
+  folder.write(name, text);
+}
+
+double focal_of(const TemporaryFolder& folder, const std::string& name) {
+  const std::string settings = folder.read(name);
+  const std::string key = "focal_length_mm = ";
+  const std::size_t at = settings.find(key);
+  EXPECT_NE(at, std::string::npos) << name;
+  return at == std::string::npos ? 0.0 : std::atof(settings.c_str() + at + key.size());
+}
+
+ProgramRun calibrate(const TemporaryFolder& folder, const std::string& settings,
+                     const std::vector<std::string>& more = {}) {
+  folder.write("t.toml", settings);
+  std::vector<std::string> arguments = {"calibrate", "camera", "t.toml"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_tubesight(folder, arguments);
+}
+
+TEST(CalibratePoints, WrittenFromPicturesGiveTheSameCamera) {
+  const TemporaryFolder folder;
+  draw_dots(folder, "near.pgm", 82.0);
+  draw_dots(folder, "far.pgm", 112.0);
+  const ProgramRun pictures =
+      calibrate(folder,
+                target_of("dots = \"bright\"\n" + view_of("images = [\"near.pgm\"]", "0.0") +
+                              view_of("images = [\"far.pgm\"]", "30.0"),
+                          4.0),
+                {"--out", "a.toml", "--write-points", "points"});
+  ASSERT_EQ(pictures.status, 0) << pictures.err;
+
+  const ProgramRun points =
+      run_tubesight(folder, {"calibrate", "camera", "points/target.toml", "--out", "b.toml"});
+
+  ASSERT_EQ(points.status, 0) << points.err;
+  EXPECT_NEAR(focal_of(folder, "b.toml"), focal_of(folder, "a.toml"), 1e-6);
+  EXPECT_EQ(folder.read("points/view-0.csv").substr(0, 20), "x_mm,y_mm,u_px,v_px\n");
+  EXPECT_NE(folder.read("b.toml").find("serial = \"4711\""), std::string::npos);
+}
+
+TEST(CalibratePoints, OutOfAPlaneTellAllInOneView) {
+  const TemporaryFolder folder;
+  Points points;
+  points.depth = 10.0;
+  folder.write("p.csv", points.text());
+
+  const ProgramRun run = calibrate(folder, target_of(view_of("points = \"p.csv\"")),
+                                   {"--out", "c.toml", "--write-points", "again"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("camera from 1 view, 100 dots\n"), std::string::npos) << run.out;
+  EXPECT_NEAR(focal_of(folder, "c.toml"), 5.0, 1e-3);
+  EXPECT_EQ(folder.read("again/view-0.csv"), points.text());
+}
+
+TEST(CalibratePoints, ThatAreWrongAreNamedByTheirLine) {
+  const TemporaryFolder folder;
+  folder.write("deep.csv", "x_mm,y_mm,z_mm,u_px,v_px\n1,2,0,3,4\n1,2,x,3,4\n");
+  const ProgramRun run = calibrate(folder, target_of(view_of("points = \"deep.csv\"")));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "deep.csv:3: 'x', expected a number with up to 9 decimals\n");
+}
+
+TEST(CalibratePoints, CannotBeWrittenOverWhatIsRead) {
+  const TemporaryFolder folder;
+  folder.write("view-0.csv", Points().text());
+  const ProgramRun run =
+      calibrate(folder, target_of(view_of("points = \"view-0.csv\"")), {"--write-points", "."});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("is also a points file"), std::string::npos) << run.err;
+  EXPECT_EQ(folder.read("view-0.csv"), Points().text());
+}
+
+TEST(CalibratePoints, AreOfACameraAlone) {
+  const TemporaryFolder folder;
+  const ProgramRun run =
+      run_tubesight(folder, {"calibrate", "base", "p.csv", "--write-points", "somewhere"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "--write-points, --type: of a camera alone, expected calibrate camera\n");
+}
+
+TEST(CalibrateRefusals, EachWithItsReasonAndWithoutSettings) {
+  const TemporaryFolder folder;
+  Points far;
+  far.away = 112.0;
+  Points tilted;
+  tilted.lean = 0.5;
+  Points waves;
+  waves.wave = 0.1;
+  Points far_waves = waves;
+  far_waves.away = 112.0;
+  Points exchanged;
+  exchanged.exchanged = true;
+  folder.write("near.csv", Points().text());
+  folder.write("far.csv", far.text());
+  folder.write("tilted.csv", tilted.text());
+  folder.write("waves.csv", waves.text());
+  folder.write("far_waves.csv", far_waves.text());
+  folder.write("exchanged.csv", exchanged.text());
+  const auto expect_refused = [&](const std::string& views, const std::string& message,
+                                  const std::string& told = "") {
+    const ProgramRun run = calibrate(folder, target_of(views), {"--out", "c.toml"});
+    EXPECT_EQ(run.status, 1) << message;
+    EXPECT_NE(run.err.find("t.toml: no calibration: " + message), std::string::npos) << run.err;
+    EXPECT_NE(run.out.find(told), std::string::npos) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("c.toml"))) << message;
+  };
+
+  expect_refused(view_of("points = \"tilted.csv\""),
+                 "one view leaves EFL and distance open, or centre and scale",
+                 "not known            c_u, c_v, h_sx");
+  expect_refused(
+      view_of("points = \"waves.csv\"", "0") + view_of("points = \"far_waves.csv\"", "30"),
+      "the dots' errors hang together", "they hang together");
+  expect_refused("lens_mm = 5.0\n" + view_of("points = \"near.csv\"", "0") +
+                     view_of("points = \"far.csv\"", "300"),
+                 "EFL is not that of lens_mm", "EFL                  50.");
+  expect_refused(view_of("points = \"exchanged.csv\"", "0") + view_of("points = \"far.csv\"", "30"),
+                 "EFL or a distance comes out negative");
+}
+
+TEST(CalibrateRefusals, NameThePictureOfACameraThatMoved) {
+  const TemporaryFolder folder;
+  draw_dots(folder, "a.pgm", 82.0);
+  draw_dots(folder, "b.pgm", 82.6);
+  const ProgramRun run = calibrate(
+      folder,
+      target_of("dots = \"bright\"\n" + view_of("images = [\"a.pgm\", \"b.pgm\"]", "0.0"), 4.0));
+  EXPECT_EQ(run.status, 1);
+  EXPECT_NE(run.err.find("the camera moved"), std::string::npos) << run.err;
+}
+
+TEST(CalibrateType, IsForTrackingAndHasNoSerialNumber) {
+  const TemporaryFolder folder;
+  Points far;
+  far.away = 112.0;
+  folder.write("near.csv", Points().text());
+  folder.write("far.csv", far.text());
+
+  const ProgramRun run = calibrate(
+      folder,
+      target_of(view_of("points = \"near.csv\"", "0") + view_of("points = \"far.csv\"", "30")),
+      {"--type", "--out", "type.toml"});
+
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string settings = folder.read("type.toml");
+  EXPECT_EQ(settings.find("serial"), std::string::npos);
+  EXPECT_NE(settings.find("model = \"Maker Model\""), std::string::npos);
+  EXPECT_NE(settings.find("verdict = \"tracking and position correction only"), std::string::npos);
+  EXPECT_NE(settings.find("sigma = [0.05"), std::string::npos) << settings;
+}
+
+}  // namespace
+}  // namespace tubesight::tests
