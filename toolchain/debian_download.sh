@@ -4,8 +4,8 @@
 # Usage: toolchain/debian_download.sh [--with-dependencies] ARCHITECTURE FOLDER PACKAGE...
 #
 # FOLDER then has a .deb for each PACKAGE, beside what was there before; with --with-dependencies also for
-# what they depend on, and what every Debian has (libc6, dpkg and their like). Archives and keys are this
-# system's; the state is apt's own, in a temporary folder.
+# what they depend on, but not for what every Debian has without being asked (dpkg, base-files and their
+# like). Archives and keys are this system's; the state is apt's own, in a temporary folder.
 set -euo pipefail
 
 usage() {
