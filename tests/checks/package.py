@@ -4,11 +4,12 @@
 Usage: package.py CPACK BUILD READELF | package.py --made FOLDER READELF [EMULATOR...]
        package.py --self-test
 
-Packs what is built, or takes what FOLDER has, unpacks it, and looks: the files that are installed and those that a package has
-beside, their owners, modes and times; what it depends on; programs without symbols, and the symbols in
-the package of their own; the bill of materials against the programs; and the settings of a first start,
-which the packaged box must find in order. Then it goes through its life (package_life.py), and
-lintian has its say. Programs of --made that are of another architecture are started with the EMULATOR.
+Packs what is built, or takes what FOLDER has, unpacks it, and looks: the files that are installed and
+those that a package has beside, their owners, modes and times; what it depends on; programs without
+symbols, and the symbols in the package of their own; the bill of materials against the programs; what
+the service may do; and the settings of a first start, which the packaged box must find in order. Then it
+goes through its life (package_life.py), and lintian has its say. Programs of --made that are of another
+architecture are started with the EMULATOR.
 """
 import hashlib
 import json
@@ -24,6 +25,7 @@ import package_life
 from source_text import report
 
 EPOCH = 1700000000
+EXPOSURE = 19
 PROGRAMS = ["tubesight", "tubesightctl", "tubesightd"]
 WANTED = ["./etc/tubesight/box.toml", "./usr/lib/systemd/system/tubesightd.service",
           "./usr/lib/sysusers.d/tubesight.conf", "./usr/lib/udev/rules.d/60-tubesight.rules",
@@ -113,6 +115,18 @@ def check_settings(root, emulator):
     return [] if (status, said) == (0, "") else [f"box.toml as installed: {status} {said}"]
 
 
+def check_unit(unit):
+    """The service manager's own measure: tenths, 0 (nothing allowed) to 100. docs/security.md quotes it."""
+    status, said = run("systemd-analyze", "security", "--offline=yes", "--no-pager",
+                       f"--threshold={EXPOSURE}", unit)
+    problems = [] if status == 0 else [
+        f"{unit.name}: more is allowed to it than {EXPOSURE / 10}: {' '.join(said.split()[-8:])}"]
+    text = unit.read_text(encoding="utf-8")
+    return problems + [f"{unit.name}: no line {line}" for line in (
+        "User=tubesight", "CapabilityBoundingSet=", "NoNewPrivileges=yes", "DevicePolicy=closed")
+        if f"\n{line}\n" not in text]
+
+
 def check_lintian(packages, more=()):
     """Debian's own opinion; what it says for the record (--info and below) is not asked for."""
     status, said = run("lintian", "--allow-root", "--tag-display-limit", "0", "--fail-on", "error,warning",
@@ -146,6 +160,7 @@ def check_made(packages, readelf, emulator=(), epoch=None):
         return (problems + check_listing(listing, created[:10])
                 + check_control(run("dpkg-deb", "--field", package)[1])
                 + check_materials(document, root) + check_programs(root, readelf)
+                + check_unit(root / "usr/lib/systemd/system/tubesightd.service")
                 + check_settings(root, emulator) + package_life.check(package))
 
 
@@ -176,7 +191,11 @@ def self_test():
         for program in PROGRAMS:
             pathlib.Path(folder, "usr/bin", program).write_bytes(b"x")
         problems += check_materials({"files": [], "packages": [{"name": "libc6"}]}, folder)
-    wanted += ["not the digest of tubesightd", "libc6 is missing"]
+        unit = pathlib.Path(folder, "open.service")
+        unit.write_text("[Service]\nExecStart=/bin/true\n", encoding="utf-8")
+        problems += check_unit(unit)
+    wanted += ["not the digest of tubesightd", "libc6 is missing",
+               "open.service: more is allowed to it than", "open.service: no line User=tubesight"]
     problems += check_made([], "readelf")
     wanted += ["a package and its symbols are wanted"]
     missed = [text for text in wanted if not any(text in problem for problem in problems)]
