@@ -39,6 +39,9 @@ test=(
   lintian               # judges the package
   g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
   qemu-user-static      # runs its tests
+  qemu-system-arm       # the emulated board: tests/system/board/
+  kmod                  # the order in which its kernel's modules are loaded
+  device-tree-compiler  # its PWM
 )
 board=(
   cmake
