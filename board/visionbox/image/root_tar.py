@@ -182,6 +182,8 @@ def add_system(root):
     root.add_text("etc/fstab", "# The initramfs has mounted everything.\n")
     root.add_text("etc/hostname", "tubesight\n")
     root.add_text("etc/hosts", "127.0.0.1 localhost\n::1 localhost\n")
+    root.add_link("var/run", "/run")
+    root.add_link("var/lock", "/run/lock")
     root.add_link("etc/localtime", "/usr/share/zoneinfo/Etc/UTC")
     root.add_link("etc/systemd/system/default.target", "/lib/systemd/system/multi-user.target")
     for unit in root.text("etc/tubesight-units").splitlines():
