@@ -3,7 +3,7 @@
 #
 # Usage: ./test.sh                 the stages format, bench, bench-asan, visionbox-qemu and bench-fuzz
 #        ./test.sh quick           while you work: format and bench-quick
-#        ./test.sh long            what the default leaves out: bench-long and bench-tidy
+#        ./test.sh long            what the default leaves out: bench-long, bench-tidy and packages
 #        ./test.sh STAGE...        some of them
 #
 #   format          clang-format finds nothing to change
@@ -15,6 +15,7 @@
 #   bench-quick     the program and the tests that take less than a second, compiled in less time, layering
 #   bench-long      each source and each header compiled alone, and the tests labelled `long`
 #   bench-tidy      clang-tidy on all but the tests
+#   packages        the boards' packages, each built twice in two folders from clean checkouts: identical
 #
 # `./test.sh long` is to be run before a version is given away, after a change of the tracking, of the
 # judging or of the campaign, and when a test or helper moves. CONTRIBUTING.md has what each stage costs.
@@ -25,13 +26,13 @@ stages=("$@")
 [ ${#stages[@]} -gt 0 ] || stages=(format bench bench-asan visionbox-qemu bench-fuzz)
 case ${stages[*]} in
   quick) stages=(format bench-quick) ;;
-  long) stages=(bench-long bench-tidy) ;;
+  long) stages=(bench-long bench-tidy packages) ;;
 esac
 for stage in "${stages[@]}"; do
   case $stage in
-    format | bench | bench-asan | bench-fuzz | visionbox-qemu | bench-quick | bench-long | bench-tidy) ;;
+    format | bench | bench-asan | bench-fuzz | visionbox-qemu | bench-quick | bench-long | bench-tidy | packages) ;;
     *)
-      echo "$0: unknown stage '$stage'; sed -n 2,19p $0 lists them" >&2
+      echo "$0: unknown stage '$stage'; sed -n 2,20p $0 lists them" >&2
       exit 2
       ;;
   esac
@@ -87,6 +88,7 @@ check_stage() {
   case $1 in
     format) scripts/format.sh --check || { echo "scripts/format.sh puts this right"; return 1; } ;;
     bench-tidy) ;;
+    packages) tests/checks/packages_twice.sh ;;
     *) ctest --preset "$1" ;;
   esac
 }
@@ -113,7 +115,7 @@ results=()
 for stage in "${stages[@]}"; do
   result=build/$(folder_of "$stage")/ctest.xml
   case $stage in
-    format | bench-tidy) continue ;;
+    format | bench-tidy | packages) continue ;;
     bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
   esac
   rm -f "$result"
@@ -125,7 +127,7 @@ for index in "${!stages[@]}"; do
   stage=${stages[index]}
   next=${stages[index + 1]:-}
   echo "=== $stage"
-  if [ "$stage" = format ]; then
+  if [ "$stage" = format ] || [ "$stage" = packages ]; then
     built=0
   elif [ "$ahead" = "$stage" ]; then
     tail -n +1 -f -s 0.2 --pid="$builder" "$work/$stage.log"
@@ -137,7 +139,7 @@ for index in "${!stages[@]}"; do
     built=$?
   fi
   case $next in
-    '' | format) ;;
+    '' | format | packages) ;;
     *) [ "$(folder_of "$next")" = "$(folder_of "$stage")" ] || build_ahead "$next" ;;
   esac
   # In a shell of its own, which does not count the processor time of what is built meanwhile.

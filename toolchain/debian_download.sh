@@ -4,10 +4,10 @@
 # Usage: toolchain/debian_download.sh [--with-dependencies] [--component NAME] ARCHITECTURE FOLDER PACKAGE...
 #
 # FOLDER then has a .deb for each PACKAGE, beside what was there before; with --with-dependencies also for
-# what they depend on, and what every Debian has (libc6, dpkg and their like). A PACKAGE written PACKAGE/newest
-# is what PACKAGE depends on first: the kernel that linux-image-arm64 stands for. Archives and keys are this
-# system's, NAME is a further component of them (non-free-firmware); the state is apt's own, in a temporary
-# folder.
+# what they depend on, but not for what every Debian has without being asked (dpkg, base-files and their
+# like). A PACKAGE written PACKAGE/newest is what PACKAGE depends on first: the kernel that
+# linux-image-arm64 stands for. Archives and keys are this system's, NAME is a further component of them
+# (non-free-firmware); the state is apt's own, in a temporary folder.
 set -euo pipefail
 
 usage() {
