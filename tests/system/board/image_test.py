@@ -13,6 +13,7 @@ import argparse
 import contextlib
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -189,6 +190,8 @@ def test_first_boot(disk):
     disk.put_file("MINE/BOX.TOML", (SETTINGS + "# by tubesight.txt\n").encode())
     expect(disk.state()["ts_tries"], "0", "boots counted on a fresh image")
     console = boot_to_answer(disk, "a")
+    if not re.search(r"fields +[1-9][0-9]*, of which", console):
+        raise BoardError(f"the box did not say that fields came:\n{console}")
     expect_in("tubesight.txt: line 3 REFUSED: 'nonsense' is no line of the form KEY = VALUE", console,
               "the console")
     expect(disk.boot_file("tubesight-result.txt").splitlines(), [
