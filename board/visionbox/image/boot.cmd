@@ -46,9 +46,17 @@ env export -c -s 200 ${ts_new} ts_serial ts_slot ts_tries ts_bad_a ts_bad_b ts_p
 ${devtype} write ${ts_new} ${ts_next} 1
 echo "tubesight: slot ${ts_slot}, boot ${ts_tries} of ${ts_tries_allowed}"
 
+setenv ts_fdt ${fdt_addr}
 if test ${board} = rpi; then
   setenv ts_console "console=tty1"
   setenv ts_ramdisk 0x08000000
+  # Out of the way of the kernel, wherever the firmware has put it.
+  if fdt addr ${fdt_addr}; then
+    fdt move ${fdt_addr} 0x07000000 40000
+    setenv ts_fdt 0x07000000
+  else
+    setenv ts_fdt ${fdtcontroladdr}
+  fi
 else
   setenv ts_console "console=ttyAMA0"
   setenv ts_ramdisk ${ramdisk_addr_r}
@@ -56,7 +64,7 @@ fi
 setenv bootargs "${ts_console} quiet loglevel=5 panic=10 tubesight.slot=${ts_slot} tubesight.boot=${ts_tries}"
 if load ${devtype} ${devnum}:1 ${kernel_addr_r} ${ts_slot}/vmlinuz; then
   if load ${devtype} ${devnum}:1 ${ts_ramdisk} ${ts_slot}/initrd.img; then
-    booti ${kernel_addr_r} ${ts_ramdisk}:${filesize} ${fdt_addr}
+    booti ${kernel_addr_r} ${ts_ramdisk}:${filesize} ${ts_fdt}
   fi
 fi
 echo "tubesight: slot ${ts_slot} has no kernel that starts"

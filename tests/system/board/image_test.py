@@ -170,6 +170,23 @@ def test_boot_count(disk, work):
     for copy in COPIES:
         small.write(copy, bytes(512))
     boots(("a", 1))
+    test_raspberry_pi_counts(small, work)
+
+
+def test_raspberry_pi_counts(small, work):
+    """The U-Boot of the image's boot partition, on the emulator's Raspberry Pi 3, from its SD card."""
+    say("the Raspberry Pi's own U-Boot counts on its card")
+    with open(small.path, "r+b") as disk:
+        disk.truncate(32 * MIB)  # cards are powers of two there
+    tree = next((CACHE / "boot/usr/lib").glob("linux-image-*/broadcom/bcm2837-rpi-3-b.dtb"))
+    says = work / "raspberry"
+    subprocess.run(
+        [tool("qemu-system-aarch64"), "-M", "raspi3b", "-kernel", CACHE / "boot/usr/lib/u-boot/rpi_arm64/u-boot.bin",
+         "-dtb", tree, "-drive", f"file={small.path},if=sd,format=raw", "-display", "none", "-no-reboot",
+         "-serial", "null", "-serial", f"file:{says}"],
+        stdin=subprocess.DEVNULL, check=True, timeout=300)
+    expect_in("tubesight: slot a, boot 2 of 3", says.read_text(errors="replace"), "U-Boot on its console")
+    expect((small.state()["ts_slot"], small.state()["ts_tries"]), ("a", "2"), "the boot count on the card")
 
 
 SETTINGS = """format = 1
