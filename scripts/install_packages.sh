@@ -3,6 +3,7 @@
 #
 # Usage: scripts/install_packages.sh bench          what the program needs to be built and run
 #        scripts/install_packages.sh bench test     and what the tests and checks need
+#        scripts/install_packages.sh image          what a board's image is made with
 #        scripts/install_packages.sh board-arm64    what a board's package is built with; or board-armhf
 set -euo pipefail
 
@@ -50,6 +51,16 @@ board=(
   python3               # sources joined, dependencies and bill of materials written
   git                   # the commit, and the time that the package's files bear
 )
+image=(
+  dosfstools            # the boot partition
+  mtools                # and what is on it
+  e2fsprogs             # the data partition
+  fdisk                 # the partitions' table
+  squashfs-tools        # the root
+  kmod                  # which kernel modules need which
+  u-boot-tools          # U-Boot's script
+  python3
+)
 
 fail() {
   echo "$0: $1" >&2
@@ -61,12 +72,13 @@ for group in "$@"; do
   case $group in
     bench) wanted+=("${bench[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    image) wanted+=("${image[@]}") ;;
     board-arm64) wanted+=("${board[@]}" g++-aarch64-linux-gnu) ;;
     board-armhf) wanted+=("${board[@]}" g++-arm-linux-gnueabihf) ;;
-    *) fail "unknown group '$group', expected bench, test, board-arm64 or board-armhf" ;;
+    *) fail "unknown group '$group', expected bench, test, image, board-arm64 or board-armhf" ;;
   esac
 done
-[ ${#wanted[@]} -gt 0 ] || fail "no group given, expected bench, test, board-arm64 or board-armhf"
+[ ${#wanted[@]} -gt 0 ] || fail "no group given, expected bench, test, image, board-arm64 or board-armhf"
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
   fail "this is not Debian; install by hand what corresponds to: ${wanted[*]}"

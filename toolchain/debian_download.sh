@@ -1,22 +1,33 @@
 #!/usr/bin/env bash
 # Downloads Debian packages of another architecture, without a change to this system and without root.
 #
-# Usage: toolchain/debian_download.sh [--with-dependencies] ARCHITECTURE FOLDER PACKAGE...
+# Usage: toolchain/debian_download.sh [--with-dependencies] [--component NAME] ARCHITECTURE FOLDER PACKAGE...
 #
 # FOLDER then has a .deb for each PACKAGE, beside what was there before; with --with-dependencies also for
 # what they depend on, but not for what every Debian has without being asked (dpkg, base-files and their
-# like). Archives and keys are this system's; the state is apt's own, in a temporary folder.
+# like). A PACKAGE written PACKAGE/newest is what PACKAGE depends on first: the kernel that
+# linux-image-arm64 stands for. Archives and keys are this system's, NAME is a further component of them
+# (non-free-firmware); the state is apt's own, in a temporary folder.
 set -euo pipefail
 
 usage() {
-  echo "usage: $0 [--with-dependencies] ARCHITECTURE FOLDER PACKAGE..." >&2
+  echo "usage: $0 [--with-dependencies] [--component NAME] ARCHITECTURE FOLDER PACKAGE..." >&2
   exit 2
 }
 all=no
-if [ "${1:-}" = --with-dependencies ]; then
-  all=yes
+component=
+while [ $# -gt 0 ]; do
+  case $1 in
+    --with-dependencies) all=yes ;;
+    --component)
+      component=${2:-}
+      [ -n "$component" ] || usage
+      shift
+      ;;
+    *) break ;;
+  esac
   shift
-fi
+done
 [ $# -ge 3 ] || usage
 architecture=$1
 mkdir -p "$2"
@@ -39,6 +50,17 @@ Dir::Cache "$work/cache";
 Acquire::Languages "none";
 Acquire::Retries "3";
 CONF
+if [ -n "$component" ]; then
+  # What this system has of Debian, with that component.
+  key=/usr/share/keyrings/debian-archive-keyring.gpg
+  apt-get indextargets --format '$(LABEL) $(REPO_URI) $(RELEASE)' 'Created-By: Packages' \
+    | sed -n "s,^Debian[^ ]* \([^ ]*\) \(.*\),deb [signed-by=$key] \1 \2 main $component,p" \
+    | sort -u > "$work/component.list"
+  cat >> "$work/apt.conf" <<CONF
+Dir::Etc::sourcelist "$work/component.list";
+Dir::Etc::sourceparts "$work/none";
+CONF
+fi
 export APT_CONFIG=$work/apt.conf
 
 # One list that fails (the archive of security updates has at times none for armhf) is told, not the end:
@@ -47,6 +69,14 @@ apt-get -q update > "$work/log" 2>&1 \
   || echo "$0: not all of Debian's package lists for $architecture could be read" >&2
 fetch() {
   cd "$work/debs"
+  local package
+  for package in "$@"; do
+    shift
+    if [[ $package == */newest ]]; then
+      package=$(apt-cache depends --important "${package%/newest}" | sed -n 's/^ *Depends: //p' | head -n 1)
+    fi
+    set -- "$@" "$package"
+  done
   if [ "$all" = yes ]; then
     apt-get -qy --download-only install "$@" && mv "$work"/cache/archives/*.deb .
   else

@@ -1,0 +1,325 @@
+#!/usr/bin/env python3
+"""The box's image on the emulated board, from U-Boot to the box's answer.
+
+Usage: image_test.py [--package FILE.deb | --cpack CPACK --build BUILD_FOLDER] [--long]
+
+The package is FILE.deb, or what cpack makes of a build folder, or that of package.sh.
+
+One boot by default, with a tubesight.txt as Windows writes it: U-Boot counts, the box answers, the slot is
+good, and the disk holds what it should. With --long also: a second boot keeps all; a slot without a root,
+and one whose box dies, give way to the other.
+"""
+import argparse
+import contextlib
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import zlib
+
+from board_machine import Board
+from board_parts import BoardError, ROOT, run, tool
+
+IMAGE_SCRIPT = ROOT / "board" / "visionbox" / "image.sh"
+CACHE = ROOT / "build" / "image"
+MIB = 1 << 20
+BOOT_PARTITION, ROOT_A, ROOT_B, DATA = (at * MIB for at in (16, 192, 448, 704))
+COPIES = (8192 * 512, 16384 * 512)
+GROWN = 900 * MIB  # a card is larger than the image
+ANSWER_S = 420.0   # a quiet machine takes 30
+PATIENCE_S = 240.0  # the 90 s that a box has to answer in, on a busy machine
+
+
+def say(text):
+    print(text, flush=True)
+
+
+def expect(value, wanted, what):
+    if value != wanted:
+        raise BoardError(f"{what}: expected {wanted!r}, found {value!r}")
+
+
+def expect_in(part, whole, what):
+    if part not in whole:
+        raise BoardError(f"{what}: expected '{part}' in:\n{whole}")
+
+
+class Disk:
+    """The image that the board boots from, looked at from outside."""
+
+    def __init__(self, path, image=None):
+        self.path = path
+        if image is not None:
+            run("cp", "--sparse=always", image, path)
+            with open(path, "r+b") as disk:
+                disk.truncate(GROWN)
+
+    def state(self):
+        """The newest of the two sectors that U-Boot and the box write."""
+        best = {}
+        with open(self.path, "rb") as disk:
+            for at in COPIES:
+                disk.seek(at)
+                sector = disk.read(512)
+                if zlib.crc32(sector[4:]) != int.from_bytes(sector[:4], "little"):
+                    continue
+                words = dict(word.split("=") for word in sector[4:].rstrip(b"\0").decode().split("\0"))
+                if not best or int(words["ts_serial"], 16) > int(best["ts_serial"], 16):
+                    best = words
+        return best
+
+    def put_file(self, name, content):
+        source = self.path.with_suffix(".file")
+        source.write_bytes(content)
+        folder, _, _ = name.rpartition("/")
+        where = f"{self.path}@@{BOOT_PARTITION}"
+        if folder:
+            run("mmd", "-D", "s", "-i", where, f"::{folder}")
+        run("mcopy", "-o", "-i", where, source, f"::{name}")
+
+    def boot_file(self, name):
+        return run("mtype", "-i", f"{self.path}@@{BOOT_PARTITION}", f"::{name}").replace("\r\n", "\n")
+
+    @contextlib.contextmanager
+    def data(self):
+        """Reads files of the data partition, repaired as after a power cut: a function of their path."""
+        part = self.path.with_suffix(".data")
+        with open(self.path, "rb") as disk, open(part, "wb") as copy:
+            disk.seek(DATA)
+            while piece := disk.read(4 * MIB):
+                copy.write(piece)
+        done = subprocess.run([tool("e2fsck"), "-fp", part], capture_output=True, text=True, check=False)
+        if done.returncode > 1:
+            raise BoardError(f"the data partition: e2fsck says {done.returncode}\n{done.stdout}")
+        yield lambda request: run("debugfs", "-R", request, part)
+        part.unlink()
+
+    def write(self, at, content):
+        with open(self.path, "r+b") as disk:
+            disk.seek(at)
+            disk.write(content)
+
+
+@contextlib.contextmanager
+def powered(disk):
+    with Board(bios=CACHE / "u-boot-emulated.bin", disks=[disk.path]) as board:
+        board.power_on()
+        yield board
+
+
+def boot_to_answer(disk, slot, count=1):
+    """One boot until the slot is good, then a power cut; what the console said."""
+    begin = time.monotonic()
+    with powered(disk) as board:
+        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", 120)
+        board.expect(rf"slot {slot} is good: the box answers", ANSWER_S)
+        say(f"  slot {slot} answers {time.monotonic() - begin:.0f} s after power on")
+        return board.console
+
+
+def boot_to_reboot(disk, slot, count, seconds):
+    """One boot that comes to no answer and ends itself."""
+    with powered(disk) as board:
+        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", 120)
+        board.wait_off(seconds)
+        return board.console
+
+
+def disk_without_kernels(disk, work):
+    """What U-Boot needs to count, and nothing that starts: a boot of some seconds."""
+    small = Disk(work / "small")
+    with open(small.path, "wb") as file:
+        file.truncate(BOOT_PARTITION + 8 * MIB)
+        file.seek(446)  # one partition, FAT, in the boot sector
+        file.write(bytes((0x80, 0, 0, 0, 0x0C, 0, 0, 0)) + (BOOT_PARTITION // 512).to_bytes(4, "little")
+                   + (8 * MIB // 512).to_bytes(4, "little"))
+        file.seek(510)
+        file.write(b"\x55\xaa")
+    script = work / "boot.scr"
+    run("mcopy", "-i", f"{disk.path}@@{BOOT_PARTITION}", "::boot.scr", script)
+    with open(work / "fat", "wb") as fat:
+        fat.truncate(8 * MIB)
+    run("mkfs.vfat", work / "fat")
+    run("mcopy", "-i", work / "fat", script, "::boot.scr")
+    small.write(BOOT_PARTITION, (work / "fat").read_bytes())
+    return small
+
+
+def test_boot_count(disk, work):
+    say("U-Boot counts, falls back, and bears a torn sector")
+    small = disk_without_kernels(disk, work)
+    expect(small.state(), {}, "the boot count of an empty disk")
+
+    def boots(*wanted):
+        for slot, count in wanted:
+            boot_to_reboot(small, slot, count, 120)
+            state = small.state()
+            expect((state["ts_slot"], state["ts_tries"]), (slot, str(count)), "the boot count")
+
+    boots(("a", 1), ("a", 2), ("a", 3), ("b", 1))
+    expect((small.state()["ts_bad_a"], small.state()["ts_bad_b"]), ("1", "0"), "who has failed")
+    # The sector that was written last: the boot before is the last one that counts.
+    boots(("b", 2))
+    small.write(COPIES[int(small.state()["ts_serial"], 16) % 2 == 0] + 77, b"torn")
+    expect(small.state()["ts_tries"], "1", "the boot count after a torn write")
+    boots(("b", 2), ("b", 3), ("a", 1))
+    for copy in COPIES:
+        small.write(copy, bytes(512))
+    boots(("a", 1))
+    test_raspberry_pi_counts(small, work)
+
+
+def test_raspberry_pi_counts(small, work):
+    """The U-Boot of the image's boot partition, on the emulator's Raspberry Pi 3, from its SD card."""
+    say("the Raspberry Pi's own U-Boot counts on its card")
+    with open(small.path, "r+b") as disk:
+        disk.truncate(32 * MIB)  # cards are powers of two there
+    tree = next((CACHE / "boot/usr/lib").glob("linux-image-*/broadcom/bcm2837-rpi-3-b.dtb"))
+    says = work / "raspberry"
+    subprocess.run(
+        [tool("qemu-system-aarch64"), "-M", "raspi3b", "-kernel", CACHE / "boot/usr/lib/u-boot/rpi_arm64/u-boot.bin",
+         "-dtb", tree, "-drive", f"file={small.path},if=sd,format=raw", "-display", "none", "-no-reboot",
+         "-serial", "null", "-serial", f"file:{says}"],
+        stdin=subprocess.DEVNULL, check=True, timeout=300)
+    expect_in("tubesight: slot a, boot 2 of 3", says.read_text(errors="replace"), "U-Boot on its console")
+    expect((small.state()["ts_slot"], small.state()["ts_tries"]), ("a", "2"), "the boot count on the card")
+
+
+SETTINGS = """format = 1
+[source]
+kind = "simulated"
+scenario = "/usr/share/doc/tubesight/docs/examples/steam-generator.toml"
+[record]
+folder = "/var/lib/tubesight"
+[control]
+socket = "/run/tubesight/control"
+"""
+
+
+def test_first_boot(disk):
+    say("first boot, with a tubesight.txt of Windows's")
+    disk.put_file("tubesight.txt",
+                  b"\xef\xbb\xbfNAME = Box-7\r\ntime-zone = Europe/Paris\r\nnonsense\r\nsettings = Mine\r\n")
+    disk.put_file("MINE/BOX.TOML", (SETTINGS + "# by tubesight.txt\n").encode())
+    expect(disk.state()["ts_tries"], "0", "boots counted on a fresh image")
+    console = boot_to_answer(disk, "a")
+    if not re.search(r"fields +[1-9][0-9]*, of which", console):
+        raise BoardError(f"the box did not say that fields came:\n{console}")
+    expect_in("tubesight.txt: line 3 REFUSED: 'nonsense' is no line of the form KEY = VALUE", console,
+              "the console")
+    expect(disk.boot_file("tubesight-result.txt").splitlines(), [
+        "boot 1", "line 1: the box is called Box-7", "line 2: time zone Europe/Paris",
+        "line 3 REFUSED: 'nonsense' is no line of the form KEY = VALUE",
+        "line 4: 1 files of folder 'Mine' are the box's settings", "1 refused."], "tubesight-result.txt")
+    state = disk.state()
+    expect((state["ts_slot"], state["ts_tries"], state["ts_bad_a"], state["ts_proven_a"]),
+           ("a", "0", "0", "1"), "the boot count after an answer")
+    with disk.data() as ask:
+        expect(ask("cat /board/current/hostname"), "Box-7\n", "the box's name")
+        expect_in("# by tubesight.txt", ask("cat /settings/box.toml"), "the box's settings")
+        machine = ask("cat /board/machine-id").strip()
+        expect_in(machine, ask("ls -p /log"), "the journal's folder")
+        # 4 MiB at the end stay free: partition and file system reach to there.
+        blocks = next(line.split(":")[1] for line in ask("stats").splitlines() if line.startswith("Block count"))
+        grown = int(blocks) * 4096 if int(blocks) < 100_000 else int(blocks) * 1024
+        if grown < GROWN - DATA - 8 * MIB:
+            say(f"  the file system was cut while it grew: {grown // MIB} MiB")
+
+
+def test_second_boot(disk):
+    say("second boot: the same name and settings, nothing applied again")
+    console = boot_to_answer(disk, "a")
+    if "line 1: the box is called" in console:
+        raise BoardError("tubesight.txt was applied at the second boot, too")
+    with disk.data() as ask:
+        expect(ask("cat /board/boots"), "2\n", "boots")
+        expect(ask("cat /board/current/hostname"), "Box-7\n", "the box's name")
+        expect_in("# by tubesight.txt", ask("cat /settings/box.toml"), "the box's settings")
+
+
+def test_slot_without_root(disk):
+    say("slot a has lost its root: slot b takes over after three boots, and stays")
+    disk.write(ROOT_A, bytes(MIB))
+    for count in (1, 2, 3):
+        console = boot_to_reboot(disk, "a", count, 120)
+        expect_in("tubesight: slot a: its root cannot be mounted", console, "the console")
+    console = boot_to_answer(disk, "b")
+    expect_in("tubesight: slot a has not come to an answer 3 times", console, "U-Boot")
+    expect_in("slot a: failed: three boots without an answer", console, "the console")
+    expect((disk.state()["ts_slot"], disk.state()["ts_bad_a"]), ("b", "1"), "the boot count")
+    boot_to_answer(disk, "b")
+
+
+def test_box_that_dies(disk, package, work):
+    say("slot a's box dies at each start: slot b takes over")
+    broken = work / "broken"
+    run("dpkg-deb", "-R", package, broken)
+    (broken / "usr/bin/tubesightd").write_text("#!/bin/sh\nexit 1\n", encoding="ascii")
+    run("dpkg-deb", "--root-owner-group", "-Zgzip", "-b", broken, work / "broken.deb")
+    # In a cache of its own with the same packages: the good root stays there.
+    cache = work / "cache"
+    run("cp", "-rl", CACHE, cache)
+    build(work / "broken.img", work / "broken.deb", cache)
+    with open(work / "broken.img", "rb") as image:
+        image.seek(ROOT_A)
+        disk.write(ROOT_A, image.read(ROOT_B - ROOT_A))
+    state = disk.state()
+    for count in (1, 2, 3):
+        console = boot_to_reboot(disk, "a", count, ANSWER_S + PATIENCE_S)
+        expect_in("no answer from the box in slot a: the board starts again", console, "the console")
+    boot_to_answer(disk, "b")
+    expect((disk.state()["ts_bad_a"], state["ts_bad_a"]), ("1", "0"), "the boot count")
+
+
+def build(out, package, cache=CACHE):
+    begin = time.monotonic()
+    done = subprocess.run([IMAGE_SCRIPT, "--package", package, out], stdin=subprocess.DEVNULL,
+                          capture_output=True, text=True, check=False,
+                          env={**os.environ, "TUBESIGHT_IMAGE_CACHE": str(cache)})
+    if done.returncode != 0:
+        raise BoardError(f"the image could not be built:\n{done.stdout}{done.stderr}")
+    say(f"  {done.stdout.strip()}, built in {time.monotonic() - begin:.0f} s")
+
+
+def pack(cpack, folder, work):
+    """The package: of a build folder, or of package.sh, which builds what it needs."""
+    if cpack is not None:
+        run(cpack, "--config", folder / "CPackConfig.cmake", "-B", work / "packages")
+    else:
+        done = subprocess.run([IMAGE_SCRIPT.with_name("package.sh"), "arm64", work / "packages"],
+                              stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise BoardError(f"the package could not be built:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return next((work / "packages").glob("tubesight_*.deb"))
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("--package", type=pathlib.Path)
+    parser.add_argument("--cpack", type=pathlib.Path)
+    parser.add_argument("--build", type=pathlib.Path)
+    parser.add_argument("--long", action="store_true")
+    arguments = parser.parse_args()
+    work = pathlib.Path(tempfile.mkdtemp(prefix="image"))
+    try:
+        package = arguments.package or pack(arguments.cpack, arguments.build, work)
+        build(work / "box.img", package)
+        disk = Disk(work / "disk", work / "box.img")
+        test_boot_count(disk, work)
+        test_first_boot(disk)
+        if arguments.long:
+            test_second_boot(disk)
+            test_slot_without_root(disk)
+            test_box_that_dies(Disk(work / "disk2", work / "box.img"), package, work)
+    except BoardError as error:
+        sys.exit(f"image_test: {error}")
+    finally:
+        shutil.rmtree(work)
+
+
+if __name__ == "__main__":
+    main()
