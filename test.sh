@@ -74,7 +74,7 @@ folder_of() {
 
 build_stage() {
   case $1 in
-    visionbox-qemu) toolchain/arm64_sysroot.sh build/sysroot-arm64 || return 1 ;;
+    visionbox-qemu) toolchain/debian_sysroot.sh arm64 build/sysroot-arm64 || return 1 ;;
     bench)
       toolchain/gpiod2.sh build/gpiod2 \
         || echo "=== libgpiod 2.x is not tested: its header could not be fetched"

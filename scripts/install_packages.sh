@@ -3,6 +3,7 @@
 #
 # Usage: scripts/install_packages.sh bench          what the program needs to be built and run
 #        scripts/install_packages.sh bench test     and what the tests and checks need
+#        scripts/install_packages.sh board-arm64    what a board's package is built with; or board-armhf
 set -euo pipefail
 
 bench=(
@@ -34,8 +35,19 @@ test=(
   python3-pymodbus      # and another, with what it needs for a serial line:
   python3-serial-asyncio #
   groff-base            # check manual: the manual page is rendered
+  systemd               # systemd-analyze judges the service's unit
+  lintian               # judges the package
   g++-aarch64-linux-gnu # preset visionbox-qemu, check no_float
   qemu-user-static      # runs its tests
+  qemu-system-arm       # the emulated board: tests/system/board/
+  kmod                  # the order in which its kernel's modules are loaded
+  device-tree-compiler  # its PWM
+)
+board=(
+  cmake
+  ninja-build
+  python3               # sources joined, dependencies and bill of materials written
+  git                   # the commit, and the time that the package's files bear
 )
 
 fail() {
@@ -48,10 +60,12 @@ for group in "$@"; do
   case $group in
     bench) wanted+=("${bench[@]}") ;;
     test) wanted+=("${test[@]}") ;;
-    *) fail "unknown group '$group', expected bench or test" ;;
+    board-arm64) wanted+=("${board[@]}" g++-aarch64-linux-gnu) ;;
+    board-armhf) wanted+=("${board[@]}" g++-arm-linux-gnueabihf) ;;
+    *) fail "unknown group '$group', expected bench, test, board-arm64 or board-armhf" ;;
   esac
 done
-[ ${#wanted[@]} -gt 0 ] || fail "no group given, expected bench or test"
+[ ${#wanted[@]} -gt 0 ] || fail "no group given, expected bench, test, board-arm64 or board-armhf"
 
 if ! command -v dpkg-query > /dev/null || ! command -v apt-get > /dev/null; then
   fail "this is not Debian; install by hand what corresponds to: ${wanted[*]}"

@@ -8,7 +8,7 @@ set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_C_FLAGS_INIT "-march=armv8-a")
 set(CMAKE_CXX_FLAGS_INIT "-march=armv8-a")
 
-# Libraries and headers come from CMAKE_FIND_ROOT_PATH alone (the recipe arm64_sysroot.sh makes such a
+# Libraries and headers come from CMAKE_FIND_ROOT_PATH alone (the recipe debian_sysroot.sh makes such a
 # folder), never from the PC's own; programs are the PC's.
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)

@@ -17,7 +17,8 @@ from source_text import report
 
 PROGRAMS = ["tubesight", "tubesightctl", "tubesightd"]
 WANTED = ["share/doc/tubesight/README.md", "share/doc/tubesight/LICENSE",
-          "lib/systemd/system/tubesightd.service"] + [
+          "lib/systemd/system/tubesightd.service", "lib/sysusers.d/tubesight.conf",
+          "lib/udev/rules.d/60-tubesight.rules"] + [
     name for program in PROGRAMS for name in (
         f"bin/{program}", f"share/man/man1/{program}.1",
         f"share/bash-completion/completions/{program}")]

@@ -184,5 +184,15 @@ TEST(ServiceUnitFile, StartsAgainWhatFailedButNotWrongSettings) {
   EXPECT_EQ(values_of("StartLimitIntervalSec"), std::vector<std::string>{"0"});
 }
 
+TEST(ServiceUnitFile, StaysAsFarFromPrivilegesAsItWas) {
+  // The service manager's own measure, 0 (nothing allowed) to 10; docs/security.md quotes it.
+  const Answered judged = run_program(
+      "/usr/bin/systemd-analyze", {"security", "--offline=yes", "--no-pager", "--threshold=19", kUnit});
+
+  EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
+  EXPECT_EQ(values_of("User"), std::vector<std::string>{"tubesight"});
+  EXPECT_EQ(values_of("CapabilityBoundingSet"), std::vector<std::string>{""});
+}
+
 }  // namespace
 }  // namespace tubesight::tests
