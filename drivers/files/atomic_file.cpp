@@ -42,6 +42,11 @@ std::string resolve_links(const std::string& path) {
   return result;
 }
 
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+
 }  // namespace
 
 Result<void> AtomicFile::open(const std::string& path) {
@@ -113,6 +118,19 @@ Result<void> AtomicFile::commit() {
     return failure;
   }
   temporary_.clear();
+  return {};
+}
+
+Result<void> AtomicFile::commit_to_disk() {
+  if (const auto synced = sync(); !synced) {
+    discard();
+    return synced;
+  }
+  const bool in_a_folder = !temporary_.empty();
+  TUBESIGHT_TRY(commit());
+  if (in_a_folder && !sync_folder(folder_of(target_))) {
+    return fail("is in its place, but a power cut may take it back");
+  }
   return {};
 }
 

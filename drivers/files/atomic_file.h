@@ -42,6 +42,13 @@ class AtomicFile {
   /// it was before open().
   [[nodiscard]] core::Result<void> commit();
 
+  /// As commit(), and when it returns the file is in its place after a power cut, too: its bytes
+  /// are on the disk before it gets its name, and then the name. For what is kept (settings,
+  /// calibrations, pairs): a name without its bytes may come back as an empty file. As slow as the
+  /// disk. Errors: kIo, kNotReady; the target is then as it was before open(), but where the last
+  /// step alone failed: then it is the whole new file, which a power cut may take back.
+  [[nodiscard]] core::Result<void> commit_to_disk();
+
   /// Gives up what was written; does nothing when not open.
   void discard();
 

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 #include <fcntl.h>
@@ -205,13 +204,10 @@ Result<void> append_pair(const std::string& path, const core::PosePair& pair,
     return Unexpected(Error::kInvalidArgument);
   }
   AtomicFile file;
-  if (!file.open(path) || !file.write(pairs.text()) || !file.sync() || !file.commit()) {
+  if (!file.open(path) || !file.write(pairs.text()) || !file.commit_to_disk()) {
     message = file.message();
     return Unexpected(Error::kIo);
   }
-  // A power cut may still bring back the file of before, which is whole, too.
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  static_cast<void>(sync_folder(folder.empty() ? "." : folder.string()));
   return {};
 }
 

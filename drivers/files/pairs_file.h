@@ -45,11 +45,12 @@ class PairsText {
 [[nodiscard]] std::string why_no_pairs(const std::string& path);
 
 /// Appends a pair to the file of that name, which is made where there is none. The file is replaced
-/// by a whole one, so that whatever happens it has whole rows alone; when this returns it is on the
-/// disk. As slow as the disk.
+/// by a whole one, so that whatever happens it has whole rows alone; when this returns the row is
+/// there after a power cut, too. As slow as the disk.
 ///
 /// Errors: kInvalidArgument what stands there is no file of pairs, or the pair doesn't fit it; kIo
-/// it cannot be read or written. The file is then as it was, and `message` says why in one line.
+/// it cannot be read or written, or is not known to be on the disk (AtomicFile::commit_to_disk()).
+/// The file is then as it was, but for that last case, and `message` says why in one line.
 [[nodiscard]] core::Result<void> append_pair(const std::string& path, const core::PosePair& pair,
                                              std::string& message);
 

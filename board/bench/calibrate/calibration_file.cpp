@@ -15,6 +15,7 @@
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
+#include "drivers/settings/text_files.h"
 #include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
@@ -42,6 +43,22 @@ std::string now_in_words() {
 
 double sigma_of(const core::math::Matrix6d& covariance, int i) {
   return std::sqrt(std::max(0.0, covariance(i, i)));
+}
+
+/// Whole, too, whatever happens: it is what a person goes back to.
+bool keep_former(const std::string& path) {
+  std::string former;
+  std::string why;
+  if (!drivers::DiskFiles().read(path, former, why)) {
+    tell(path + ": cannot be kept as " + path + ".bak: " + why);
+    return false;
+  }
+  drivers::AtomicFile kept;
+  if (!kept.open(path + ".bak") || !kept.write(former) || !kept.commit_to_disk()) {
+    tell(kept.message());
+    return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -86,15 +103,10 @@ bool write_settings(const std::string& path, const std::string& text) {
     return false;
   }
   std::error_code error;
-  if (std::filesystem::is_regular_file(path, error)) {
-    std::filesystem::copy_file(path, path + ".bak",
-                               std::filesystem::copy_options::overwrite_existing, error);
-    if (error) {
-      tell(path + ".bak: cannot be written: " + error.message());
-      return false;
-    }
+  if (std::filesystem::is_regular_file(path, error) && !keep_former(path)) {
+    return false;
   }
-  if (!file.commit()) {
+  if (!file.commit_to_disk()) {
     tell(file.message());
     return false;
   }

@@ -131,7 +131,7 @@ bool write_points(const std::string& folder, const drivers::TargetFile& file,
     }
   }
   for (drivers::AtomicFile& each : files) {
-    if (!each.commit()) {
+    if (!each.commit_to_disk()) {
       tell(each.message());
       return false;
     }
