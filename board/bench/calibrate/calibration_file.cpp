@@ -15,6 +15,7 @@
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
+#include "drivers/settings/text_files.h"
 #include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
@@ -45,6 +46,16 @@ double sigma_of(const core::math::Matrix6d& covariance, int i) {
 }
 
 }  // namespace
+
+bool read_whole(const std::string& path, std::string& text, std::vector<std::string>& messages) {
+  drivers::DiskFiles files;
+  std::string message;
+  if (!files.read(path, text, message)) {
+    messages.push_back(path + ": " + message);
+    return false;
+  }
+  return true;
+}
 
 double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
   const double scale = sigma_of(covariance, i) * sigma_of(covariance, k);
