@@ -41,6 +41,10 @@ void add_camera_options(CLI::App& calibrate, CalibrateCameraOptions& camera) {
                   "Of a camera: write what the pictures show as points files, and a target.toml "
                   "that reads them")
       ->option_text("FOLDER");
+  calibrate
+      .add_option("--residuals", camera.residuals,
+                  "Of a camera: a table of all dots with what each is off by")
+      ->option_text("RESIDUALS.csv");
   calibrate.add_flag("--type", camera.type,
                      "Of a camera: for all of its type that have no calibration of their own");
   CLI::Option* const exported =
@@ -153,8 +157,9 @@ const char* find_misplaced(const CalibrateArguments& arguments) {
   if (what != "camera" && !arguments.camera.exported.empty()) {
     return "--export: of a camera alone, expected calibrate camera";
   }
-  if (what != "camera" && (arguments.camera.type || !arguments.camera.points.empty())) {
-    return "--write-points, --type: of a camera alone, expected calibrate camera";
+  if (what != "camera" && (arguments.camera.type || !arguments.camera.points.empty() ||
+                           !arguments.camera.residuals.empty())) {
+    return "--write-points, --residuals, --type: of a camera alone, expected calibrate camera";
   }
   if (what != "base" && is_for_base(arguments.base)) {
     return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";

@@ -40,7 +40,7 @@ _tubesight() {
       ;;
     calibrate)
       options="-h --help --level --tool-known --free-efl --opencv --type"
-      taking="--write-points --sheet --touches --base --arm --picture --export --out --dock --check"
+      taking="--write-points --residuals --sheet --touches --base --arm --picture --export --out --dock --check"
       taking+=" --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
       taking+=" --rows --columns --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
@@ -76,7 +76,8 @@ _tubesight() {
     replay--overlay) _tubesight_files .y4m && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
     replay--fields | replay--centers | replay--poses | replay--pairs | pose--csv | pose--covariance | look--csv | \
-      campaign--resume | campaign--report | campaign--merge | calibrate--touches)
+      campaign--resume | campaign--report | campaign--merge | calibrate--touches | \
+      calibrate--residuals)
       _tubesight_files .csv && return
       ;;
     campaign--out) _tubesight_files .toml .csv && return ;;

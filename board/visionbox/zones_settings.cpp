@@ -37,11 +37,9 @@ void read_zones(const drivers::SettingsDocument& document, drivers::TableReader&
     table.complain("file", "'" + zones.file + "' has no corrections, expected one at least");
   }
   for (const drivers::ZoneRow& row : rows) {
-    core::calibration::ZonePoint point;
-    point.at_mm << row.at_mm[0], row.at_mm[1];
-    point.off_mm << row.off_mm[0], row.off_mm[1], row.off_mm[2];
-    point.sigma_mm = row.sigma_mm;
-    static_cast<void>(zones.points.try_push_back(point));  // as many as were read have room
+    // As many as were read have room.
+    static_cast<void>(zones.points.try_push_back(
+        core::calibration::zone_point(row.at_mm, row.off_mm, row.sigma_mm)));
   }
 }
 

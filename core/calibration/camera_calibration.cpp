@@ -54,6 +54,28 @@ CalibrationRefusal check_views(const CalibrationData& data) {
                                        : CalibrationRefusal::kNone;
 }
 
+/// As CalibrationOutcome::unseen_lens. A square view tells EFL over its distance alone, f / z; with
+/// z2 - z1 = h known, f = h / (z2 / f - z1 / f), so that a change d of f before the second view
+/// makes f wrong by d z2 / h. A third height, or one of the two again, has the two disagree; three
+/// free poses tell EFL by themselves.
+double unseen_lens(const CalibrationData& data, const CalibrationState& state) {
+  constexpr std::int32_t kEnoughFree = 3;
+  std::int32_t staged = 0;
+  double least = HUGE_VAL;
+  double most = -HUGE_VAL;
+  double farthest_mm = 0.0;
+  for (std::int32_t i = 0; i < data.views.size(); ++i) {
+    if (data.views[i].staged) {
+      ++staged;
+      least = std::min(least, data.views[i].height_mm);
+      most = std::max(most, data.views[i].height_mm);
+      farthest_mm = std::max(farthest_mm, state.poses[i].t_camera_target.z());
+    }
+  }
+  return staged == 2 && data.views.size() - staged < kEnoughFree ? farthest_mm / (most - least)
+                                                                 : 0.0;
+}
+
 /// EFL and poses first, with the picture's middle as centre; then everything.
 FitOutcome fit_in_steps(const FitOptions& options, CalibrationData& data, CalibrationState& state,
                         FitScratch& scratch) {
@@ -209,7 +231,9 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   if (!(outcome.judged_px <= kForTracking_px)) {
     return refuse(CalibrationRefusal::kTooUncertain);
   }
-  outcome.verdict = verdict_for(outcome.judged_px);
+  outcome.unseen_lens = unseen_lens(data, state);
+  outcome.verdict = std::max(verdict_for(outcome.judged_px),
+                             outcome.unseen_lens > 0.0 ? Verdict::kPose : Verdict::kBase);
   return outcome;
 }
 

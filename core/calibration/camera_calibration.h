@@ -62,10 +62,14 @@ struct CalibrationOutcome {
   /// Of one view of a plane: centre and scale are not fitted, their uncertainty is assumed and is
   /// in the covariance.
   bool assumed = false;
+  /// Of two heights alone: a lens that moved between them shows the same as another EFL with
+  /// another distance, whatever the residuals are. By what share of itself EFL would be wrong for
+  /// each share that it changed in between; 0: a change would show.
+  double unseen_lens = 0.0;
   std::int32_t left_out = 0;  ///< dots that lie off by more than six standard deviations
   MapUncertainty map;
   /// What the verdict goes by: the map's RMS, twice that with a pattern, and what tangential
-  /// distortion leaves.
+  /// distortion leaves. With `unseen_lens` it is for a pose at most.
   double judged_px = 0.0;
   Verdict verdict = Verdict::kTracking;
 };

@@ -83,17 +83,35 @@ void free_what_is_asked_for(std::span<const Candidate> candidates, CalibrationDa
   }
 }
 
+/// Holds k2 at 0 again where it turns out to be nothing once all is fitted and cleaned.
+void hold_second_distortion(CalibrationData& data, CalibrationState& state, FitScratch& scratch,
+                            CalibrationOutcome& outcome) {
+  const double k2 = state.camera(5);
+  const double variance = outcome.fit.camera_covariance(5, 5);
+  if (!outcome.freed.distortion2 || k2 * k2 > kCandidates[0].asks_for_it * variance) {
+    return;
+  }
+  outcome.freed.distortion2 = false;
+  state.camera(5) = 0.0;
+  outcome.fit = fit_camera(outcome.freed, data, state, scratch);
+  clean(data, state, scratch, outcome, outcome.freed);
+}
+
 /// Frees k2, a bow and tangential distortion where the residuals ask for them; the latter two only
 /// if noise alone is left then. Paper that is bent anyhow asks for everything.
 void free_all_that_is_asked_for(CalibrationData& data, CalibrationState& state, FitScratch& scratch,
                                 CalibrationOutcome& outcome) {
   const auto all = std::span(kCandidates);
+  // A dot that is none bends the lens towards itself: it asks for k2 until it is left out.
+  clean(data, state, scratch, outcome, outcome.freed);
   const CalibrationOutcome before = outcome;
   scratch.before = state;
   free_what_is_asked_for(all, data, state, scratch, outcome);
   clean(data, state, scratch, outcome, outcome.freed);
+  hold_second_distortion(data, state, scratch, outcome);
   if ((outcome.freed.bow || outcome.freed.tangential) && is_patterned(residual_pattern(data))) {
     outcome = before;
+    outcome.left_out = 0;
     state = scratch.before;
     for (SeenDot& dot : data.dots) {
       dot.used = true;
@@ -101,6 +119,7 @@ void free_all_that_is_asked_for(CalibrationData& data, CalibrationState& state, 
     outcome.fit = fit_camera(outcome.freed, data, state, scratch);
     free_what_is_asked_for(all.first(1), data, state, scratch, outcome);
     clean(data, state, scratch, outcome, outcome.freed);
+    hold_second_distortion(data, state, scratch, outcome);
   }
 }
 

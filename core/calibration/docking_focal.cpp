@@ -108,6 +108,23 @@ DockingFocal combined_focal(std::span<const DockingFocal> dockings) {
   return result;
 }
 
+FocalWalk::Step FocalWalk::take(const DockingFocal& found, double with_mm) {
+  constexpr double kStays = 0.05;  // of a standard deviation
+  // Where tube-ends at the edge of what is taken come and go with it, the EFL goes to and fro.
+  constexpr double kTrembles = 0.5;
+  if (!(std::abs(found.focal_length_mm / type_mm_ - 1.0) < kMostChange)) {
+    return Step::kElsewhere;
+  }
+  change_mm_ = std::abs(found.focal_length_mm - with_mm);
+  if (change_mm_ < kStays * found.sigma_mm) {
+    return Step::kSettled;
+  }
+  if (++steps_ < kMostSteps) {
+    return Step::kGoOn;
+  }
+  return change_mm_ < kTrembles * found.sigma_mm ? Step::kSettled : Step::kRestless;
+}
+
 math::Matrix6d camera_covariance(const DockingFocal& focal, const math::Matrix6d& covariance) {
   math::Matrix6d result = covariance;
   result.row(0).setZero();

@@ -39,6 +39,34 @@ struct DockingFocal {
 /// than these promise, the deviation grows with it. At least one, each solved.
 [[nodiscard]] DockingFocal combined_focal(std::span<const DockingFocal> dockings);
 
+/// Goes from EFL to EFL until one stays where it is found: what is measured with a wrong EFL leads
+/// to a better one only.
+class FocalWalk {
+ public:
+  enum class Step : std::uint8_t {
+    kGoOn,       ///< measure with the EFL found
+    kSettled,    ///< it is the one that was measured with, to a twentieth of its deviation; after
+                 ///< twelve steps to half of it
+    kElsewhere,  ///< more than a tenth beside that of the type: it is another type, or not told
+    kRestless,   ///< after twelve steps it still moves by more
+  };
+  static constexpr int kMostSteps = 12;
+  static constexpr double kMostChange = 0.1;
+
+  explicit FocalWalk(double type_mm) : type_mm_(type_mm) {}
+
+  /// Of what was found with the EFL `with_mm`.
+  [[nodiscard]] Step take(const DockingFocal& found, double with_mm);
+
+  /// How far what was found last is from what was measured with.
+  [[nodiscard]] double change_mm() const { return change_mm_; }
+
+ private:
+  double type_mm_;
+  int steps_ = 0;
+  double change_mm_ = 0.0;
+};
+
 /// The covariance of all six parameters of the camera: EFL by dockings, the others as `covariance`
 /// has them (its row and column of the EFL do not count). What is wrong with the others moves the
 /// EFL found, so that they are correlated.

@@ -45,17 +45,24 @@ void derive(const Sensor& sensor, const CameraValues& camera, const Eigen::Vecto
   }
 }
 
+/// Of the sheet `gap_mm` above the tip; its origin is where the guidetube's axis meets it.
 PoseAnswer answer_at(const Sensor& sensor, const CameraValues& camera,
-                     const TipSituation& situation, double sheet_mm) {
+                     const TipSituation& situation, double gap_mm) {
   constexpr int kReach = 12;  // tube-ends to each side: farther than any wide lens needs here
   constexpr double kEdge_px = 10.0;  // a tube-end has a size
+  constexpr double kNearest_mm = 10.0;
+  const Eigen::Matrix3d& R = situation.R_camera_tool;
+  const Eigen::Vector3d origin = situation.tip_mm + gap_mm * R.col(2);
   PoseAnswer answer;
   math::Matrix6d normal = math::Matrix6d::Zero();
   OfCamera cross = OfCamera::Zero();
   for (int i = -kReach; i <= kReach; ++i) {
     for (int k = -kReach; k <= kReach; ++k) {
-      const Eigen::Vector3d arm(i * situation.pitch_mm, k * situation.pitch_mm, 0.0);
-      const Eigen::Vector3d place = arm + Eigen::Vector3d(0.0, 0.0, sheet_mm);
+      const Eigen::Vector3d arm = situation.pitch_mm * (i * R.col(0) + k * R.col(1));
+      const Eigen::Vector3d place = origin + arm;
+      if (place.z() < kNearest_mm) {
+        continue;
+      }
       const Eigen::Vector2d pixel = pixel_of(sensor, camera, place);
       if (!(pixel.x() > kEdge_px && pixel.x() < sensor.width_px - kEdge_px &&
             pixel.y() > kEdge_px && pixel.y() < sensor.height_px - kEdge_px)) {
@@ -91,22 +98,20 @@ TipUncertainty tip_uncertainty(const Sensor& sensor, const CameraValues& camera,
                                const math::Matrix6d& covariance, const TipSituation& situation,
                                double gap_mm) {
   TipUncertainty result;
-  const Eigen::Vector3d tip(0.0, situation.tip_y_mm, situation.tip_z_mm);
-  const PoseAnswer docked = answer_at(sensor, camera, situation, situation.tip_z_mm);
-  const PoseAnswer now = answer_at(sensor, camera, situation, situation.tip_z_mm + gap_mm);
+  const PoseAnswer docked = answer_at(sensor, camera, situation, 0.0);
+  const PoseAnswer now = answer_at(sensor, camera, situation, gap_mm);
   result.tubes = std::min(docked.tubes, now.tubes);
   if (!result.told()) {
     return result;
   }
-  // Docked, the tip's place X on the sheet is known: tip = R_d X + t_d errs by
-  // theta_d x X + tau_d. On the sheet now it is R^T (tip - t): that error, less
-  // theta x (tip - t) + tau.
+  // Docked, the tip is the sheet's origin: it errs by tau_d. On the sheet now it is R^T (tip - t):
+  // that error, less theta x (tip - t) + tau. All in the tool's directions.
+  const Eigen::Matrix3d& R = situation.R_camera_tool;
   Eigen::Matrix<double, 3, 6> of_docked;
-  of_docked << -crossing(tip - Eigen::Vector3d(0.0, 0.0, situation.tip_z_mm)),
-      Eigen::Matrix3d::Identity();
+  of_docked << Eigen::Matrix3d::Zero(), Eigen::Matrix3d(R.transpose());
   Eigen::Matrix<double, 3, 6> of_now;
-  of_now << crossing(tip - Eigen::Vector3d(0.0, 0.0, situation.tip_z_mm + gap_mm)),
-      -Eigen::Matrix3d::Identity();
+  of_now << crossing(Eigen::Vector3d(-gap_mm * R.col(2))), -Eigen::Matrix3d::Identity();
+  of_now = (R.transpose() * of_now).eval();
   const Eigen::Matrix<double, 3, kParameters> by_camera =
       of_docked * docked.by_camera + of_now * now.by_camera;
   const Eigen::Matrix3d calibrated = by_camera * covariance * by_camera.transpose();

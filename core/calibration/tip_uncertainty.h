@@ -8,13 +8,14 @@
 namespace tubesight::core::calibration {
 
 /// What is assumed where the guidetube's tip is reckoned from a camera calibration: a tubesheet of
-/// square pitch, square to the camera, its tube-ends in the picture all seen to the same noise; and
-/// a tool that was calibrated with this camera by docking, its tip at the tube's very centre.
+/// square pitch, square to the guidetube, its tube-ends in the picture all seen to the same noise;
+/// and a tool that was calibrated with this camera by docking, its tip at the tube's very centre.
 struct TipSituation {
   double pitch_mm = 25.4;
-  double tube_px = 0.05;   ///< of a tube-end's place, a coordinate
-  double tip_y_mm = 30.0;  ///< of the tip in the camera frame, from the camera's axis
-  double tip_z_mm = 113.0;
+  double tube_px = 0.05;                     ///< of a tube-end's place, a coordinate
+  Eigen::Vector3d tip_mm{0.0, 30.0, 113.0};  ///< in the camera frame
+  /// Of the tool: z is the guidetube's axis, and the sheet's normal.
+  Eigen::Matrix3d R_camera_tool = Eigen::Matrix3d::Identity();
 };
 
 /// How well the tip's place on the sheet is known there, one standard deviation.

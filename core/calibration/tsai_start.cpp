@@ -51,27 +51,43 @@ std::int32_t farthest_dot(const CalibrationData& data, const CalibrationView& vi
   return farthest;
 }
 
+/// The radial alignment's equations row . a = d_x of all dots, by least squares; `row_of` makes a
+/// row of a dot's place from the origin w and its image d. False: they do not tell all of a.
+template <int N, typename RowOf>
+bool solve_alignment(const CalibrationData& data, const CalibrationView& view,
+                     const Eigen::Vector3d& origin, const RowOf& row_of,
+                     Eigen::Matrix<double, N, 1>& a) {
+  Eigen::Matrix<double, N, N> normal = Eigen::Matrix<double, N, N>::Zero();
+  Eigen::Matrix<double, N, 1> right = Eigen::Matrix<double, N, 1>::Zero();
+  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
+    const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
+    const Eigen::Matrix<double, N, 1> row = row_of(data.dots[i].place_mm - origin, d);
+    normal += row * row.transpose();
+    right += d.x() * row;
+  }
+  math::Cholesky<N> factor;
+  if (!factor.factor(normal, 1e-12)) {
+    return false;
+  }
+  a = factor.solve(right);
+  return true;
+}
+
 /// Of dots that do not lie in a plane, all of the rotation is linear [Tsai1987 sec. II-B]:
 /// d_x (r4 X + r5 Y + r6 Z + Ty) = d_y (r1 X + r2 Y + r3 Z + Tx), over Ty.
 bool align_solid(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
   using Row = Eigen::Matrix<double, 7, 1>;
   const std::int32_t farthest = farthest_dot(data, view);
   const Eigen::Vector3d origin = data.dots[farthest].place_mm;
-  Eigen::Matrix<double, 7, 7> normal = Eigen::Matrix<double, 7, 7>::Zero();
-  Row right = Row::Zero();
-  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
-    const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
-    const Eigen::Vector3d w = data.dots[i].place_mm - origin;
+  const auto row_of = [](const Eigen::Vector3d& w, const Eigen::Vector2d& d) {
     Row row;
     row << d.y() * w, d.y(), -d.x() * w;
-    normal += row * row.transpose();
-    right += d.x() * row;
-  }
-  math::Cholesky<7> factor;
-  if (!factor.factor(normal, 1e-12)) {
+    return row;
+  };
+  Row a;
+  if (!solve_alignment<7>(data, view, origin, row_of, a)) {
     return false;
   }
-  const Row a = factor.solve(right);
   const double scale = a.head<3>().squaredNorm() + a.tail<3>().squaredNorm();  // 2 / Ty^2
   const double ty = std::copysign(std::sqrt(2.0 / scale),
                                   on_sensor(data.sensor, data.dots[farthest].seen_px).y());
@@ -91,21 +107,15 @@ bool align(const CalibrationData& data, const CalibrationView& view, Alignment& 
   using Row = Eigen::Matrix<double, 5, 1>;
   const std::int32_t farthest = farthest_dot(data, view);
   const Eigen::Vector3d origin = data.dots[farthest].place_mm;
-  Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();
-  Row right = Row::Zero();
-  for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
-    const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[i].seen_px);
-    const Eigen::Vector3d w = data.dots[i].place_mm - origin;
+  const auto row_of = [](const Eigen::Vector3d& w, const Eigen::Vector2d& d) {
     Row row;
     row << d.y() * w.x(), d.y() * w.y(), d.y(), -d.x() * w.x(), -d.x() * w.y();
-    normal += row * row.transpose();
-    right += d.x() * row;
-  }
-  math::Cholesky<5> factor;
-  if (!factor.factor(normal, 1e-12)) {
+    return row;
+  };
+  Row a;  // r1/Ty, r2/Ty, Tx/Ty, r4/Ty, r5/Ty
+  if (!solve_alignment<5>(data, view, origin, row_of, a)) {
     return false;
   }
-  const Row a = factor.solve(right);  // r1/Ty, r2/Ty, Tx/Ty, r4/Ty, r5/Ty
   const double sum = a(0) * a(0) + a(1) * a(1) + a(3) * a(3) + a(4) * a(4);
   const double cross = a(0) * a(4) - a(3) * a(1);
   const double ty2 = 2.0 / (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * cross * cross)));

@@ -20,6 +20,13 @@ struct ZonePoint {
   Eigen::Vector3d off_mm = Eigen::Vector3d::Zero();
   double sigma_mm = 0.0;  ///< of that, one sigma an axis; above 0
 };
+
+/// One of them by a row of a file.
+[[nodiscard]] inline ZonePoint zone_point(const std::array<double, 2>& at_mm,
+                                          const std::array<double, 3>& off_mm, double sigma_mm) {
+  return {{at_mm[0], at_mm[1]}, {off_mm[0], off_mm[1], off_mm[2]}, sigma_mm};
+}
+
 using ZonePoints = StaticVector<ZonePoint, kMaxZones>;
 
 /// How what is seen at two places hangs together, by their distance.

@@ -1,6 +1,7 @@
 // Whole camera calibrations of templates drawn as pictures: is the error what was promised?
 //
-// Usage: calibration_sessions [SESSIONS] [--tip DEG] [--falling-off SHARE] [--each] [--check]
+// Usage: calibration_sessions [SESSIONS] [--first N] [--tip DEG] [--falling-off SHARE] [--each]
+//        [--check]
 //
 // Even sessions have a stage with two heights, odd ones five free poses; camera, places, contrast
 // and noise are drawn anew for each. Told, for both kinds and together: the mean of the squared
@@ -42,6 +43,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct Wanted {
   int sessions = 200;
+  int first = 0;
   double tip_deg = 0.0;
   double falling_off = 0.0;
   bool check = false;
@@ -259,6 +261,8 @@ class Session {
       wanted.check = true;
     } else if (word == "--each") {
       wanted.each = true;
+    } else if (word == "--first" && i + 1 < count) {
+      wanted.first = std::atoi(values[++i]);
     } else if (word == "--tip" && i + 1 < count) {
       wanted.tip_deg = std::atof(values[++i]);
     } else if (word == "--falling-off" && i + 1 < count) {
@@ -266,8 +270,8 @@ class Session {
     } else if ((wanted.sessions = std::atoi(values[i])) < 2) {
       std::fprintf(
           stderr,
-          "usage: calibration_sessions [SESSIONS] [--tip DEG] [--falling-off SHARE] [--each] "
-          "[--check]\n");
+          "usage: calibration_sessions [SESSIONS] [--first N] [--tip DEG] [--falling-off SHARE] "
+          "[--each] [--check]\n");
       return false;
     }
   }
@@ -292,7 +296,7 @@ int main(int count, char** values) {
   }
   std::array<tubesight::tests::Sums, 2> kinds;
   const auto session = std::make_unique<tubesight::tests::Session>();
-  for (int i = 0; i < wanted.sessions; ++i) {
+  for (int i = wanted.first; i < wanted.first + wanted.sessions; ++i) {
     kinds[static_cast<std::size_t>(i % 2)].add(
         session->run(wanted, static_cast<std::uint64_t>(i), i % 2 == 0));
   }

@@ -38,6 +38,20 @@ void smear(std::vector<float>& light, std::int32_t width, std::int32_t height, d
   }
 }
 
+/// Moves along the lines while the picture is exposed.
+void move_along(std::vector<float>& light, std::int32_t width, std::int32_t moved_px) {
+  const std::vector<float> from = light;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const auto u = static_cast<std::int32_t>(i % static_cast<std::size_t>(width));
+    float sum = 0.0F;
+    for (std::int32_t k = 0; k < moved_px; ++k) {
+      const std::int32_t x = std::clamp(u + k - moved_px / 2, 0, width - 1);
+      sum += from[i - static_cast<std::size_t>(u) + static_cast<std::size_t>(x)];
+    }
+    light[i] = sum / static_cast<float>(moved_px);
+  }
+}
+
 }  // namespace
 
 Eigen::Vector2d DrawnTemplate::on_template(double u, double v) const {
@@ -93,6 +107,9 @@ core::picture::AveragedPicture DrawnTemplate::draw(std::mt19937_64& random,
     }
   }
   smear(light, width_px, height_px, smear_px);
+  if (moved_px > 1) {
+    move_along(light, width_px, moved_px);
+  }
   std::normal_distribution<float> spread(0.0F, static_cast<float>(noise));
   pixels.resize(light.size());
   for (std::size_t i = 0; i < light.size(); ++i) {

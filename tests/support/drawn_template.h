@@ -35,10 +35,11 @@ struct DrawnTemplate {
 
   double background = 14.0;  ///< grey levels
   double inside = 180.0;
-  double falling_off = 0.0;  ///< share of the light lost in the picture's corners
-  double smear_px = 0.7;     ///< of the optics, one sigma
-  double noise = 1.0;        ///< of a frame, grey levels
-  std::int32_t frames = 4;   ///< averaged, each in whole grey levels
+  double falling_off = 0.0;   ///< share of the light lost in the picture's corners
+  double smear_px = 0.7;      ///< of the optics, one sigma
+  std::int32_t moved_px = 0;  ///< along u while it was exposed
+  double noise = 1.0;         ///< of a frame, grey levels
+  std::int32_t frames = 4;    ///< averaged, each in whole grey levels
 
   /// Draws it into `pixels`, which the picture returned looks at.
   [[nodiscard]] core::picture::AveragedPicture draw(std::mt19937_64& random,

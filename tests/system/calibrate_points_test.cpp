@@ -1,23 +1,18 @@
 // `tubesight calibrate camera` between pictures and points, on what it must tell or refuse of a
 // template, and for a type of camera.
 
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "tests/core/detection/drawn_lattice.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/system/program.h"
+#include "tests/system/calibrate_views.h"
 
 namespace tubesight::tests {
 namespace {
-
-using support::TemporaryFolder;
 
 /// A camera of EFL 5 mm and cells of 0.01 mm, and 10 by 10 points 8 mm apart.
 std::string target_of(const std::string& more, double dot_mm = 0.0) {
@@ -28,11 +23,6 @@ std::string target_of(const std::string& more, double dot_mm = 0.0) {
          std::to_string(dot_mm) + "\n" + more;
 }
 
-std::string view_of(const std::string& source, const std::string& height_mm = "") {
-  return "[[view]]\n" + source + "\n" +
-         (height_mm.empty() ? "" : "height_mm = " + height_mm + "\n");
-}
-
 /// Points as the camera sees them from `away`, leaning by the sine `lean`; `depth` out of the plane
 /// in steps and `wave` along it, mm.
 struct Points {
@@ -41,6 +31,7 @@ struct Points {
   double depth = 0.0;
   double wave = 0.0;
   bool exchanged = false;
+  bool half = false;  ///< those of the left half alone
 
   [[nodiscard]] std::string text() const {
     std::string rows = depth > 0.0 ? "x_mm,y_mm,z_mm,u_px,v_px\n" : "x_mm,y_mm,u_px,v_px\n";
@@ -48,6 +39,9 @@ struct Points {
       const double x = 8.0 * (i % 10);
       const double y = 8.0 * (i / 10);
       const double z = depth * (i * 7 % 3);
+      if (half && i % 10 >= 5) {
+        continue;
+      }
       const double cosine = std::sqrt(1.0 - lean * lean);
       const double far = away + lean * (y - 36.0) + cosine * z;
       const double ideal_x = 5.0 * (x + wave * std::sin(x / 12.0) - 36.0) / far;
@@ -65,40 +59,8 @@ struct Points {
   }
 };
 
-/// Bright dots of 4 mm, as a picture.
-void draw_dots(const TemporaryFolder& folder, const std::string& name, double away) {
-  core::detection::DrawnLattice drawn;
-  drawn.distortion = 0.25;
-  drawn.background = 12.0;
-  drawn.inside = 170.0;
-  drawn.noise = 0.5;
-  drawn.rows = 10;
-  drawn.columns = 10;
-  drawn.turn_deg = 0.7;
-  drawn.tilt_deg = 0.3;
-  drawn.distance = away / 4.0;
-  static_cast<void>(drawn.draw());
-  std::string text = "P5\n640 480\n255\n";
-  for (const std::uint16_t pixel : drawn.pixels) {
-    text += static_cast<char>((pixel + 128) / 256);
-  }
-  folder.write(name, text);
-}
-
 double focal_of(const TemporaryFolder& folder, const std::string& name) {
-  const std::string settings = folder.read(name);
-  const std::string key = "focal_length_mm = ";
-  const std::size_t at = settings.find(key);
-  EXPECT_NE(at, std::string::npos) << name;
-  return at == std::string::npos ? 0.0 : std::atof(settings.c_str() + at + key.size());
-}
-
-ProgramRun calibrate(const TemporaryFolder& folder, const std::string& settings,
-                     const std::vector<std::string>& more = {}) {
-  folder.write("t.toml", settings);
-  std::vector<std::string> arguments = {"calibrate", "camera", "t.toml"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return run_tubesight(folder, arguments);
+  return number_of(folder.read(name), "focal_length_mm");
 }
 
 TEST(CalibratePoints, WrittenFromPicturesGiveTheSameCamera) {
@@ -160,7 +122,8 @@ TEST(CalibratePoints, AreOfACameraAlone) {
   const ProgramRun run =
       run_tubesight(folder, {"calibrate", "base", "p.csv", "--write-points", "somewhere"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err, "--write-points, --type: of a camera alone, expected calibrate camera\n");
+  EXPECT_EQ(run.err,
+            "--write-points, --residuals, --type: of a camera alone, expected calibrate camera\n");
 }
 
 TEST(CalibrateRefusals, EachWithItsReasonAndWithoutSettings) {
@@ -203,6 +166,22 @@ TEST(CalibrateRefusals, EachWithItsReasonAndWithoutSettings) {
                  "EFL or a distance comes out negative");
 }
 
+TEST(CalibratePoints, ThatLeaveHalfThePictureEmptySayHowWellItIsKnownThere) {
+  const TemporaryFolder folder;
+  Points half;
+  half.half = true;
+  folder.write("near.csv", half.text());
+  half.away = 112.0;
+  folder.write("far.csv", half.text());
+
+  const ProgramRun run = calibrate(folder, target_of(view_of("points = \"near.csv\"", "0") +
+                                                     view_of("points = \"far.csv\"", "30")));
+
+  EXPECT_NE(run.out.find("  without a dot        "), std::string::npos) << run.out << run.err;
+  EXPECT_NE(run.out.find("the model alone tells the map there, to 0."), std::string::npos)
+      << run.out;
+}
+
 TEST(CalibrateRefusals, NameThePictureOfACameraThatMoved) {
   const TemporaryFolder folder;
   draw_dots(folder, "a.pgm", 82.0);
@@ -212,6 +191,58 @@ TEST(CalibrateRefusals, NameThePictureOfACameraThatMoved) {
       target_of("dots = \"bright\"\n" + view_of("images = [\"a.pgm\", \"b.pgm\"]", "0.0"), 4.0));
   EXPECT_EQ(run.status, 1);
   EXPECT_NE(run.err.find("the camera moved"), std::string::npos) << run.err;
+}
+
+TEST(CalibrateRefusals, NameThePictureOfDotsThatAreSmearedOrCutOff) {
+  const TemporaryFolder folder;
+  draw_dots(folder, "near.pgm", 82.0);
+  DrawnFaults faults;
+  faults.moved_px = 6;
+  draw_dots(folder, "smeared.pgm", 112.0, faults);
+  faults = {};
+  faults.inside = 330.0;
+  draw_dots(folder, "white.pgm", 112.0, faults);
+  const auto told = [&](const std::string& name) {
+    const ProgramRun run =
+        calibrate(folder,
+                  target_of("dots = \"bright\"\n" + view_of("images = [\"near.pgm\"]", "0.0") +
+                                view_of("images = [\"" + name + "\"]", "30.0"),
+                            4.0),
+                  {"--out", "c.toml"});
+    EXPECT_EQ(run.status, 1) << run.out;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("c.toml"))) << name;
+    return run.err;
+  };
+
+  EXPECT_TRUE(told("smeared.pgm").starts_with("smeared.pgm: the dots are smeared by "));
+  EXPECT_TRUE(told("white.pgm").starts_with("white.pgm: the light is cut off: at 100 of 100 dots"));
+}
+
+TEST(CalibrateResiduals, AreWrittenADotARowAlsoOfWhatIsRefused) {
+  const TemporaryFolder folder;
+  Points far;
+  far.away = 112.0;
+  folder.write("near.csv", Points().text());
+  folder.write("far.csv", far.text());
+  const std::string views =
+      view_of("points = \"near.csv\"", "0") + view_of("points = \"far.csv\"", "30");
+
+  ASSERT_EQ(calibrate(folder, target_of(views), {"--residuals", "r.csv"}).status, 0);
+
+  const std::string rows = folder.read("r.csv");
+  EXPECT_TRUE(rows.starts_with("view,x_mm,y_mm,z_mm,u_px,v_px,du_px,dv_px,used\n0,0.0000,0.0000,"))
+      << rows.substr(0, 100);
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 201);
+  EXPECT_NE(rows.find("\n1,72.0000,72.0000,0.0000,"), std::string::npos);
+
+  Points waves;
+  waves.wave = 0.1;
+  folder.write("near.csv", waves.text());
+  ASSERT_EQ(calibrate(folder, target_of(views), {"--residuals", "bad.csv"}).status, 1);
+  EXPECT_NE(folder.read("bad.csv").find(",0.0000,0.0000,0.0000,"), std::string::npos);
+  const ProgramRun clash = calibrate(folder, target_of(views), {"--residuals", "near.csv"});
+  EXPECT_EQ(clash.status, 2);
+  EXPECT_NE(clash.err.find("--residuals: 'near.csv' is also a points file"), std::string::npos);
 }
 
 TEST(CalibrateType, IsForTrackingAndHasNoSerialNumber) {

@@ -10,7 +10,7 @@
 
 #include "tests/support/replaced_text.h"
 #include "tests/support/settings_list.h"
-#include "tests/system/pose_stills.h"
+#include "tests/system/docked_stills.h"
 
 namespace tubesight::tests {
 namespace {
@@ -19,58 +19,10 @@ using support::replaced;
 
 constexpr std::array kTrue{-3.074, 31.629, 112.789, -0.0639, -0.8174, 47.9947};
 
-/// Draws the tool of the shipped example at rest on tube (40, 60) as `path` says, the first frame
-/// into NAME.pgm; the clicks are in NAME.session.toml.
-void draw_docked(const TemporaryFolder& folder, const std::string& name, const std::string& path,
-                 const std::array<std::string, 2>& change = {}) {
-  std::string text = replaced(text_of(TUBESIGHT_SOURCE_DIR "/docs/examples/steam-generator.toml"),
-                              "window_px = [40, 36, 595, 330]", "window_px = [8, 8, 627, 472]");
-  if (!change[0].empty()) {
-    text = replaced(text, change[0], change[1]);
-  }
-  text.erase(text.find("[path]"));
-  folder.write(name + ".toml", text + "[video]\nlength_s = 0.04\n[path]\ntube = [40, 60]\n" + path +
-                                   "\n[[step]]\nrest_s = 1\n");
-  const ProgramRun run = run_tubesight(folder, {"simulate", name + ".toml", "--out", name});
-  ASSERT_EQ(run.status, 0) << run.err;
-  const std::string video = folder.read(name + ".y4m");
-  const std::size_t frame = video.find("FRAME\n");
-  ASSERT_NE(frame, std::string::npos);
-  folder.write(name + ".pgm", "P5\n635 480\n255\n" + video.substr(frame + 6, 635 * 480));
-}
-
-/// The session of a drawing, without [tool], as it is not known yet.
-void forget_tool(const TemporaryFolder& folder, const std::string& name) {
-  std::string text = folder.read(name + ".session.toml");
-  const std::size_t at = text.find("[tool]");
-  const std::size_t next = text.find("\n[", at);
-  ASSERT_NE(next, std::string::npos);
-  folder.write(name + ".session.toml", text.erase(at, next + 1 - at));
-}
-
-/// --start of a drawing's own clicks.
-std::string clicks_of(const TemporaryFolder& folder, const std::string& name) {
-  const std::string text = folder.read(name + ".session.toml");
-  std::string clicks;
-  for (std::size_t at = text.find("{ row = "); at != std::string::npos;
-       at = text.find("{ row = ", at + 1)) {
-    int row = 0;
-    int column = 0;
-    double u = 0.0;
-    double v = 0.0;
-    EXPECT_EQ(std::sscanf(text.c_str() + at, "{ row = %d, column = %d, at_px = [%lf, %lf]", &row,
-                          &column, &u, &v),
-              4);
-    clicks += (clicks.empty() ? "" : ";") + std::to_string(row) + "," + std::to_string(column) +
-              "," + std::to_string(u) + "," + std::to_string(v);
-  }
-  return clicks;
-}
-
 TEST(CalibrateTool, FromADockedStillIsRight) {
   const TemporaryFolder folder;
   draw_docked(folder, "d", "height_mm = 0\noffset_mm = [0.05, -0.04]");
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
   folder.write("tool.toml", "what stood here");
 
   const ProgramRun run =
@@ -115,7 +67,7 @@ TEST(CalibrateTool, TakesSeveralHeadingsAndChecksAnother) {
     arguments.insert(arguments.end(), {name == "c" ? "--check" : "--dock", "40,60", name + ".pgm"});
     starts.insert(starts.end(), {"--start", clicks_of(folder, name)});
   }
-  forget_tool(folder, "a");
+  forget_table(folder, "a", "[tool]");
   arguments.insert(arguments.end(), starts.begin(), starts.end());
 
   const ProgramRun run = run_tubesight(folder, arguments);
@@ -140,7 +92,7 @@ TEST(CalibrateTool, RefusesTheWrongTubeWhereItCanTell) {
             "two to agree; without [tool] in the session if it is of another tool\n");
 
   // By what stands there in the picture: the tube-end named, or others behind the guidetube.
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
   run = run_tubesight(folder, {"calibrate", "tool", "d.session.toml", "--dock", "40,61", "d.pgm",
                                "--out", "tool.toml"});
   EXPECT_EQ(run.status, 1);
@@ -172,7 +124,7 @@ TEST(CalibrateTool, RefusesTheWrongTubeWhereItCanTell) {
 TEST(CalibrateTool, TellsEachMistakeOfItsArguments) {
   const TemporaryFolder folder;
   draw_docked(folder, "d", "height_mm = 0");
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
   const auto told = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments = {"calibrate", "tool", "d.session.toml"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -208,7 +160,7 @@ TEST(CalibrateTool, TellsEachMistakeOfItsArguments) {
 TEST(CalibrateTool, FindsTheEflOfACameraOfItsType) {
   const TemporaryFolder folder;
   draw_docked(folder, "d", "height_mm = 0\noffset_mm = [0.05, -0.04]");
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
   const std::string right = folder.read("d.session.toml");
   folder.write("type.toml", replaced(right, "focal_length_mm = 5.06", "focal_length_mm = 5.16"));
 
@@ -254,9 +206,9 @@ TEST(CalibrateTool, FreesNoEflThatThePictureDoesNotTell) {
   const TemporaryFolder folder;
   draw_docked(
       folder, "d", "height_mm = 0",
-      {"position_mm = [-3.074, 31.629, 112.789]\nrotation_deg = [-0.0639, -0.8174, 47.9947]",
-       "position_mm = [0.0, 75.0, 110.0]\nrotation_deg = [0.0, 0.0, 0.0]"});
-  forget_tool(folder, "d");
+      {{"position_mm = [-3.074, 31.629, 112.789]\nrotation_deg = [-0.0639, -0.8174, 47.9947]",
+        "position_mm = [0.0, 75.0, 110.0]\nrotation_deg = [0.0, 0.0, 0.0]"}});
+  forget_table(folder, "d", "[tool]");
   folder.write("tool.toml", "kept");
 
   const ProgramRun run =
@@ -274,7 +226,7 @@ TEST(CalibrateTool, FreesNoEflThatThePictureDoesNotTell) {
 TEST(CalibrateTool, StoresTheGuidetubesSilhouette) {
   const TemporaryFolder folder;
   draw_docked(folder, "d", "height_mm = 0");
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
 
   const ProgramRun run =
       run_tubesight(folder, {"calibrate", "tool", "d.session.toml", "--dock", "40,60", "d.pgm",
@@ -311,7 +263,7 @@ constexpr const char* kPoints =
 TEST(CalibrateTool, TakesPointsOnTheGuidetube) {
   const TemporaryFolder folder;
   draw_docked(folder, "d", "height_mm = 0");
-  forget_tool(folder, "d");
+  forget_table(folder, "d", "[tool]");
   folder.write("p.csv", replaced(kPoints, "3.112,-8.551,-8,325.31", "3.112,-8.551,-8,335.31"));
 
   const ProgramRun run =

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "board/bench/budget/vision_budget.h"
 #include "board/bench/output/line_plot.h"
 #include "board/bench/output/output_paths.h"
+#include "board/bench/output/progress_line.h"
 #include "board/bench/output/text_output.h"
 #include "core/overlay/palette.h"
 #include "drivers/files/decimal.h"
@@ -119,6 +121,7 @@ class BudgetRun {
     tell_chain();
     tell_methods();
     tell_sweep();
+    progress_.erase();
     if (!write_out(text_)) {
       return ExitStatus::kJobFailed;
     }
@@ -151,6 +154,10 @@ class BudgetRun {
                    share.across_mm, share.along_mm, remark);
   }
 
+  void show(const std::string& what) {
+    progress_.update(ProgressLine::Clock::now(), "budget: " + what);
+  }
+
   bool tell_vision() {
     const auto model = core::pose::make_pose_model(file_.settings.camera, file_.settings.tool,
                                                    file_.settings.tubesheet);
@@ -159,6 +166,7 @@ class BudgetRun {
     uncertainty.tool_sigma = file_.tool_quality.sigma;
     uncertainty.camera_correlation = matrix_of(file_.camera_quality.correlation);
     uncertainty.tool_correlation = matrix_of(file_.tool_quality.correlation);
+    uncertainty.focal_length_correlation = file_.tool_quality.focal_length_correlation;
     VisionAssumptions assumptions;
     assumptions.height_mm = options_.height_mm;
     if (!model) {
@@ -208,6 +216,7 @@ class BudgetRun {
       ScenarioOptions alone = scenario_;
       alone.magnitudes = {};
       item.take(scenario_.magnitudes, alone.magnitudes);
+      show("the chain's " + std::string(item.name));
       append_row(item.name, mean_of(try_method(perfect, alone)), "");
     }
     append_row("chain together", mean_of(try_method(perfect, scenario_)), "");
@@ -240,8 +249,9 @@ class BudgetRun {
     methods.push_back({"the same, 40 zone corrections", true, vision_mm, 8, 0, 40});
     methods.push_back({"the same, links of 40 pairs", true, vision_mm, 8, 40, 0});
     for (std::size_t m = 0; m < methods.size(); ++m) {
-      const ScenarioResult result = try_method(methods[m], scenario_);
       const std::string name(methods[m].name);
+      show(name);
+      const ScenarioResult result = try_method(methods[m], scenario_);
       Series series{name, kColours[m], {}};
       Series height{name, kColours[m], {}};
       drivers::print(text_, "  %-32s", name.c_str());
@@ -272,6 +282,7 @@ class BudgetRun {
     Series touches{"touch", kColours[3], {}};
     Series vision{"vision, 0.25 mm", kColours[0], {}};
     for (const double sigma : kTouches_mm) {
+      show("touches of " + drivers::number_text(sigma) + " mm");
       const BudgetShare mean = mean_of(try_method({"touch", false, sigma, 3, 0, 0}, scenario_));
       drivers::print(text_, "  %5.2f  across %.3f  along %.3f\n", sigma, mean.across_mm,
                      mean.along_mm);
@@ -291,6 +302,7 @@ class BudgetRun {
   std::vector<BudgetShare> means_;
   std::vector<Panel> panels_;
   std::string text_;
+  ProgressLine progress_{stderr, standard_error_is_terminal()};
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "board/bench/budget/vision_budget.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -141,7 +142,8 @@ class View {
 };
 
 BudgetShare share_of(const Eigen::Matrix3d& spread) {
-  return {std::sqrt(spread(0, 0) + spread(1, 1)), std::sqrt(spread(2, 2))};
+  return {std::sqrt(std::max(0.0, spread(0, 0) + spread(1, 1))),
+          std::sqrt(std::max(0.0, spread(2, 2)))};
 }
 
 /// Moves of the tip by one sigma of each parameter of the camera.
@@ -169,20 +171,39 @@ core::Result<Eigen::Matrix<double, 3, 6>> camera_moves(
   return moves;
 }
 
-/// Covariance of the guidetube's direction, rad^2, by the angles of `[tool]`.
-Eigen::Matrix3d axis_spread(const View& view, const core::pose::PoseModel& model,
-                            const core::math::Matrix6d& tool) {
-  // d(direction) = (turn) x (direction), and a turn by alpha, beta, gamma is about z, Rz y, Rz Ry
-  // x.
+/// How the guidetube's direction on the sheet turns with the angles of `[tool]`, by degrees.
+Eigen::Matrix3d axis_slope(const View& view, const core::pose::PoseModel& model) {
+  // d(direction) = (turn) x (direction) = -skew(direction) (turn), and a turn by alpha, beta, gamma
+  // is about z, Rz y, Rz Ry x.
   const Eigen::Matrix3d& R = model.T_camera_tool.rotation();
   const auto angles = core::math::angles_of(R);
   Eigen::Matrix3d axes;
   axes.col(0) = Eigen::Vector3d::UnitZ();
   axes.col(1) = Eigen::Vector3d(-std::sin(angles[0]), std::cos(angles[0]), 0.0);
   axes.col(2) = R.col(0);
-  const Eigen::Matrix3d slope =
-      view.R_sheet_camera() * core::math::skew(R.col(2)) * axes * (std::numbers::pi / 180.0);
-  return slope * tool.bottomRightCorner<3, 3>() * slope.transpose();
+  return -view.R_sheet_camera() * core::math::skew(R.col(2)) * axes * (std::numbers::pi / 180.0);
+}
+
+core::math::Matrix6d tool_covariance(const core::pose::CalibrationUncertainty& uncertainty) {
+  core::math::Matrix6d tool;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k < 6; ++k) {
+      tool(i, k) = uncertainty.tool_correlation(i, k) *
+                   uncertainty.tool_sigma[static_cast<std::size_t>(i)] *
+                   uncertainty.tool_sigma[static_cast<std::size_t>(k)];
+    }
+  }
+  return tool;
+}
+
+/// Of the tool's six values with the EFL.
+core::math::Vector6d tool_with_focal(const core::pose::CalibrationUncertainty& uncertainty) {
+  core::math::Vector6d common;
+  for (int i = 0; i < 6; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    common(i) = uncertainty.focal_length_correlation[at] * uncertainty.tool_sigma[at];
+  }
+  return common;
 }
 
 }  // namespace
@@ -209,20 +230,21 @@ core::Result<VisionBudget> vision_budget(const core::pose::PoseModel& model,
     put(static_cast<VisionItem>(i), move * move.transpose());
   }
   const Eigen::Matrix3d camera = *moves * uncertainty.camera_correlation * moves->transpose();
-  core::math::Matrix6d tool;
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) {
-      tool(i, k) = uncertainty.tool_correlation(i, k) *
-                   uncertainty.tool_sigma[static_cast<std::size_t>(i)] *
-                   uncertainty.tool_sigma[static_cast<std::size_t>(k)];
-    }
-  }
-  const Eigen::Matrix3d R = view.R_sheet_camera();
-  const Eigen::Matrix3d place = R * tool.topLeftCorner<3, 3>() * R.transpose();
-  Eigen::Matrix3d axis =
-      assumptions.height_mm * assumptions.height_mm * axis_spread(view, model, tool);
-  axis.row(2).setZero();
-  axis.col(2).setZero();
+  const core::math::Matrix6d tool = tool_covariance(uncertainty);
+  // By the tip, and by the axis where it meets the sheet; both together with what they have in
+  // common, and with the EFL where one docking told it with them.
+  const Eigen::Matrix3d at_sheet =
+      Eigen::Vector3d(assumptions.height_mm, assumptions.height_mm, 0.0).asDiagonal() *
+      axis_slope(view, model);
+  Eigen::Matrix<double, 3, 6> by_tool;
+  by_tool << view.R_sheet_camera(), at_sheet;
+  const Eigen::Matrix3d place =
+      by_tool.leftCols<3>() * tool.topLeftCorner<3, 3>() * by_tool.leftCols<3>().transpose();
+  const Eigen::Matrix3d axis = at_sheet * tool.bottomRightCorner<3, 3>() * at_sheet.transpose();
+  const Eigen::Matrix3d common =
+      moves->col(0) * (by_tool * tool_with_focal(uncertainty)).transpose();
+  const Eigen::Matrix3d calibrated =
+      camera + by_tool * tool * by_tool.transpose() + common + common.transpose();
   const double pixels = model.camera.parameters().scale_px.x;
   const double in_plane = assumptions.center_px / pixels;
   const double tube_in_plane = assumptions.tube_place_mm / view.distance_mm();
@@ -237,7 +259,7 @@ core::Result<VisionBudget> vision_budget(const core::pose::PoseModel& model,
   put(VisionItem::kToolAxis, axis);
   put(VisionItem::kPicture, picture);
   put(VisionItem::kTubePlaces, tubes);
-  put(VisionItem::kTogether, camera + place + axis + picture + tubes);
+  put(VisionItem::kTogether, calibrated + picture + tubes);
   return budget;
 }
 

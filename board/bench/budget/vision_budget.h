@@ -23,7 +23,7 @@ enum class VisionItem : std::uint8_t {
   kToolAxis,    ///< the guidetube's direction, where its axis meets the sheet
   kPicture,     ///< noise of a tube-end's centre in the picture
   kTubePlaces,  ///< tube-ends beside their places of the drawing
-  kTogether,
+  kTogether,    ///< with what tip, axis and EFL have in common
 };
 inline constexpr std::size_t kVisionItems = 12;
 

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <string_view>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "core/base/trigonometry.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
 #include "drivers/files/pairs_file.h"
-#include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
 namespace {
@@ -133,11 +133,8 @@ bool read_base_pairs(const std::string& path, NamedPairs& pairs,
   pairs.pairs.clear();
   pairs.names.clear();
   pairs.joints.clear();
-  drivers::DiskFiles files;
   std::string text;
-  std::string message;
-  if (!files.read(path, text, message)) {
-    messages.push_back(path + ": " + message);
+  if (!read_whole(path, text, messages)) {
     return false;
   }
   drivers::CsvReader reader(text, path);

@@ -63,6 +63,16 @@ bool keep_former(const std::string& path) {
 
 }  // namespace
 
+bool read_whole(const std::string& path, std::string& text, std::vector<std::string>& messages) {
+  drivers::DiskFiles files;
+  std::string message;
+  if (!files.read(path, text, message)) {
+    messages.push_back(path + ": " + message);
+    return false;
+  }
+  return true;
+}
+
 double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
   const double scale = sigma_of(covariance, i) * sigma_of(covariance, k);
   return i == k ? 1.0 : scale > 0.0 ? covariance(i, k) / scale : 0.0;

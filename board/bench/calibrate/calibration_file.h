@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/math/small_matrix.h"
 
@@ -26,6 +27,10 @@ struct CalibrationQualityText {
 /// or new after a power cut, and new once this has returned. False, and why on standard error, when
 /// it does not get there.
 [[nodiscard]] bool write_settings(const std::string& path, const std::string& text);
+
+/// Reads a file whole; false, and why with its name in `messages`, where it cannot be read.
+[[nodiscard]] bool read_whole(const std::string& path, std::string& text,
+                              std::vector<std::string>& messages);
 
 /// The correlation of two of six parameters; 0 where one is held.
 [[nodiscard]] double correlation_of(const core::math::Matrix6d& covariance, int i, int k);

@@ -12,6 +12,7 @@
 #include "board/bench/calibrate/camera_views.h"
 #include "board/bench/calibrate/honest_text.h"
 #include "board/bench/calibrate/points_file.h"
+#include "board/bench/calibrate/residuals_file.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
 #include "core/calibration/camera_calibration.h"
@@ -47,7 +48,11 @@ std::string judge_by_halves(Workspace& work, CalibrationOutcome& outcome) {
 /// Whether one more view is what would help.
 bool wants_a_view(const CalibrationOutcome& outcome) {
   switch (outcome.refusal) {
-    case CalibrationRefusal::kNone: return outcome.verdict != core::calibration::Verdict::kBase;
+    case CalibrationRefusal::kNone:
+      // What two heights leave unseen is not for another angle to tell.
+      return outcome.verdict != core::calibration::Verdict::kBase &&
+             !(outcome.unseen_lens > 0.0 && core::calibration::verdict_for(outcome.judged_px) ==
+                                                core::calibration::Verdict::kBase);
     case CalibrationRefusal::kTooUncertain:
     case CalibrationRefusal::kOneView: return true;
     default: return false;
@@ -104,8 +109,10 @@ std::string find_conflict(const CalibrateCameraOptions& options, const drivers::
       inputs.push_back({"a picture", image});
     }
   }
-  std::vector<NamedPath> outputs = {
-      {"--out", options.out}, {"--picture", options.picture}, {"--export", options.exported}};
+  std::vector<NamedPath> outputs = {{"--out", options.out},
+                                    {"--picture", options.picture},
+                                    {"--export", options.exported},
+                                    {"--residuals", options.residuals}};
   if (!options.points.empty()) {
     for (const std::string& path : points_files(options.points, file.views.size())) {
       outputs.push_back({"--write-points", path});
@@ -165,12 +172,20 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
     tell(views.message());
     return status;
   }
+  if (!views.notes().empty() && !write_out(views.notes())) {
+    return ExitStatus::kJobFailed;
+  }
   if (!options.points.empty() && !write_points(options.points, file, work->data)) {
     return ExitStatus::kJobFailed;
   }
   CalibrationOutcome outcome =
       core::calibration::calibrate_camera(work->data, work->state, work->scratch);
   if (!tell_and_draw(options, *work, views, outcome)) {
+    return ExitStatus::kJobFailed;
+  }
+  // Of what is refused, too: the dots to blame are found there.
+  if (!options.residuals.empty() && outcome.fit.dots > 0 &&
+      !write_residuals(options.residuals, work->data)) {
     return ExitStatus::kJobFailed;
   }
   if (outcome.refusal != CalibrationRefusal::kNone) {

@@ -90,6 +90,14 @@ void append_misfits(std::string& text, const CalibrationData& data, const Calibr
     drivers::print(text, "  stage                stands %.3f deg off the template's normal\n",
                    tip * 57.29577951308232);
   }
+  if (outcome.unseen_lens > 0.0) {
+    drivers::print(
+        text,
+        "  lens                 two heights alone do not show one that moved between "
+        "them: %.3f mm of EFL for each 0.1 %% that it changed; a third view, back at the "
+        "first height, would\n",
+        0.001 * outcome.unseen_lens * state.camera(0));
+  }
   if (outcome.freed.bow) {
     drivers::print(
         text,

@@ -8,6 +8,7 @@
 
 #include "board/bench/calibrate/points_file.h"
 #include "board/bench/output/progress_line.h"
+#include "core/calibration/dot_sharpness.h"
 #include "core/picture/averaged_picture.h"
 #include "drivers/files/decimal.h"
 
@@ -16,6 +17,8 @@ namespace {
 
 using core::calibration::CalibrationData;
 using core::calibration::CalibrationView;
+using core::calibration::DotFault;
+using core::calibration::DotSharpness;
 using core::calibration::OrderRefusal;
 using core::calibration::Target;
 using core::calibration::TargetLattice;
@@ -57,6 +60,34 @@ std::string why_no_template(OrderRefusal refusal, const core::detection::FoundLa
   drivers::print(text,
                  "%d dots in %d rows and %d columns, expected %d lines of %d, all of which show",
                  found.elements.size(), rows, columns, target.rows, target.columns);
+  return text;
+}
+
+/// Why dots found are not measured from; empty: they may be.
+std::string why_not_sharp(const DotSharpness& sharpness) {
+  std::string text;
+  switch (core::calibration::fault_of(sharpness)) {
+    case DotFault::kNone: break;
+    case DotFault::kSaturated:
+      drivers::print(text,
+                     "the light is cut off: at %d of %d dots the sensor is at the top of its grey "
+                     "levels, expected less light or a shorter exposure",
+                     sharpness.saturated, sharpness.dots);
+      break;
+    case DotFault::kSmeared:
+      drivers::print(
+          text,
+          "the dots are smeared by %.1f px along %.0f deg from the rows, expected camera "
+          "and template at rest",
+          sharpness.smeared_px, sharpness.smeared_deg);
+      break;
+    case DotFault::kBlurred:
+      drivers::print(text,
+                     "the dots are out of focus: their edges are %.1f px wide at radii of %.1f px, "
+                     "expected at most half of that",
+                     sharpness.width_px, sharpness.radius_px);
+      break;
+  }
   return text;
 }
 
@@ -121,6 +152,16 @@ ExitStatus CameraViews::read_images(const drivers::ViewSettings& view, Calibrati
   const OrderRefusal order = core::calibration::order_on_target(*found_, target_, data.dots);
   if (order != OrderRefusal::kNone) {
     return fail(ExitStatus::kJobFailed, name + ": " + why_no_template(order, *found_, target_));
+  }
+  const DotSharpness sharpness = core::calibration::dot_sharpness(read.picture, *found_);
+  if (std::string why = why_not_sharp(sharpness); !why.empty()) {
+    return fail(ExitStatus::kJobFailed, name + ": " + why);
+  }
+  if (sharpness.ground_saturated > 0) {
+    drivers::print(notes_,
+                   "%s: around %d of %d dots the light is cut off: they come out smaller, expected "
+                   "less light\n",
+                   name.c_str(), sharpness.ground_saturated, sharpness.dots);
   }
   return ExitStatus::kDone;
 }

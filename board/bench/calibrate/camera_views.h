@@ -25,6 +25,8 @@ class CameraViews {
   [[nodiscard]] ExitStatus read(core::calibration::CalibrationData& data);
 
   [[nodiscard]] const std::string& message() const { return message_; }
+  /// What is to be told of views that are taken all the same, a line each.
+  [[nodiscard]] const std::string& notes() const { return notes_; }
   /// Each view as it was seen.
   [[nodiscard]] const std::vector<ViewThumb>& thumbs() const { return thumbs_; }
 
@@ -45,6 +47,7 @@ class CameraViews {
       std::make_unique<core::detection::FoundLattice>();
   std::vector<ViewThumb> thumbs_;
   std::string message_;
+  std::string notes_;
 };
 
 }  // namespace tubesight::board

@@ -97,7 +97,8 @@ std::string tip_text(const core::calibration::Sensor& sensor,
     drivers::print(text,
                    "    assumed: sheet square to it, pitch %.1f mm, tube-ends to %.2f px; tip at "
                    "(0, %.0f, %.0f) mm, docked with this camera\n",
-                   situation.pitch_mm, situation.tube_px, situation.tip_y_mm, situation.tip_z_mm);
+                   situation.pitch_mm, situation.tube_px, situation.tip_mm.y(),
+                   situation.tip_mm.z());
   }
   return text;
 }

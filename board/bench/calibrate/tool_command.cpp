@@ -150,6 +150,9 @@ class ToolRun {
     }
     if (report_.focal) {
       add_focal();
+      if (std::string why = why_no_tracking(); !why.empty()) {
+        return failed(options_.session + ": no calibration: " + why);
+      }
     }
     if (report_.shape) {
       report_.silhouette =
@@ -175,6 +178,29 @@ class ToolRun {
       const double sigma = std::sqrt(std::max(report_.tool.covariance(i, i), 1e-30));
       report_.focal_correlation(i) = slope(i) * std::sqrt(variance) / sigma;
     }
+  }
+
+  /// Tracking and correction have to find the tube that the tool is under: three standard
+  /// deviations of the tip stay within what counts as under a tube. Empty: they do.
+  std::string why_no_tracking() {
+    const core::SessionSettings& settings = inputs_.file.settings;
+    report_.focal->tip_mm = tip_by_freed(*report_.focal, report_.camera, report_.tool.T_camera_tool,
+                                         settings.tubesheet);
+    const double most_mm = settings.verification.aligned_within_mm / 3.0;
+    std::string why;
+    if (report_.focal->tip_mm < 0.0) {
+      drivers::print(why,
+                     "%.0f mm below the sheet this camera sees fewer than four tube-ends, expected "
+                     "the [tool] of a camera that sees the sheet from there",
+                     kFreedGap_mm);
+    } else if (report_.focal->tip_mm > most_mm) {
+      drivers::print(why,
+                     "%.0f mm below the sheet the tip is known to %.2f mm only, expected a third "
+                     "of aligned_within_mm, %.2f mm: more dockings, a type whose cameras differ "
+                     "less (sigma in [camera_quality]), or a template",
+                     kFreedGap_mm, report_.focal->tip_mm, most_mm);
+    }
+    return why;
   }
 
   void draw(const ToolPicture& picture) {

@@ -1,22 +1,23 @@
 #include "board/bench/calibrate/tool_focal.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "core/calibration/imaging.h"
+#include "core/calibration/tip_uncertainty.h"
+#include "core/tubesheet/sheet_places.h"
 #include "drivers/files/decimal.h"
 
 namespace tubesight::board {
 namespace {
 
 using core::calibration::DockingFocal;
+using Step = core::calibration::FocalWalk::Step;
 
-constexpr int kMostRounds = 12;
-constexpr double kSettled = 0.05;       // of a standard deviation
-constexpr double kMostChange = 0.1;     // of the type's EFL; beyond, it is another type
-constexpr double kMostMap_px = 1.0;     // as of a camera calibrated with a template
+constexpr double kMostMap_px = 3.0;
 constexpr double kWrongFocal_px = 4.0;  // residuals that a wrong EFL may leave
 // Where the type's EFL makes no pose: those around it.
 constexpr std::array<double, 7> kTries = {1.0, 0.98, 1.02, 0.96, 1.04, 0.93, 1.07};
@@ -31,6 +32,13 @@ core::math::Matrix6d covariance_of(const drivers::CalibrationQuality& type) {
     }
   }
   return covariance;
+}
+
+core::calibration::CameraValues values_of(const core::CameraSettings& camera) {
+  core::calibration::CameraValues values;
+  values << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
+      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
+  return values;
 }
 
 /// One search; its members are the arguments of free_focal().
@@ -55,16 +63,21 @@ class FocalSearch {
       return refused(failed.status == ExitStatus::kDone ? ExitStatus::kJobFailed : failed.status,
                      failed.message.empty() ? undetermined() : failed.message);
     }
-    bool settled = false;
-    for (int i = 0; i < kMostRounds && !settled; ++i) {
+    core::calibration::FocalWalk walk(given_mm);
+    for (;;) {
       const double before_mm = poses_.model().camera_settings.focal_length_mm;
-      const double change_mm = focal_.focal_length_mm - before_mm;
-      settled = std::abs(change_mm) < kSettled * focal_.sigma_mm;
-      if (!(std::abs(focal_.focal_length_mm / given_mm - 1.0) < kMostChange) ||
-          !poses_.take_focal_length(focal_.focal_length_mm)) {
+      const Step step = walk.take(focal_, before_mm);
+      if (step == Step::kRestless) {
+        return refused(ExitStatus::kJobFailed, restless(before_mm));
+      }
+      if (step == Step::kElsewhere || !poses_.take_focal_length(focal_.focal_length_mm)) {
         return refused(ExitStatus::kJobFailed, undetermined());
       }
-      if (!settled && !round(kWrongFocal_px)) {
+      if (step == Step::kSettled) {
+        focal_.sigma_mm = std::hypot(focal_.sigma_mm, walk.change_mm());
+        break;
+      }
+      if (!round(kWrongFocal_px)) {
         return refused(
             failed_.status == ExitStatus::kDone ? ExitStatus::kJobFailed : failed_.status,
             failed_.message.empty() ? undetermined() : failed_.message);
@@ -85,6 +98,16 @@ class FocalSearch {
     return "no calibration: the docked pictures do not tell the EFL within a tenth of that given, "
            "expected a camera that looks aslant at the sheet, seven tube-ends or more, and its own "
            "type's [camera]";
+  }
+
+  [[nodiscard]] std::string restless(double with_mm) const {
+    std::string text;
+    drivers::print(text,
+                   "no calibration: the EFL does not come to rest: measured with %.4f mm it comes "
+                   "out as %.4f +- %.4f mm, expected the same; more dockings, or tube-ends in "
+                   "better light",
+                   with_mm, focal_.focal_length_mm, focal_.sigma_mm);
+    return text;
   }
 
   /// Measures all dockings with the present EFL; false, and why in `failed_`, where one has no pose
@@ -117,13 +140,10 @@ class FocalSearch {
     result.focal = focal_;
     result.covariance = core::calibration::camera_covariance(focal_, type);
     const core::CameraSettings& camera = poses_.model().camera_settings;
-    core::calibration::CameraValues values;
-    values << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
-        camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-    result.map = core::calibration::map_beside_turn(core::calibration::sensor_of(camera), values,
-                                                    result.covariance);
+    result.map = core::calibration::map_beside_turn(core::calibration::sensor_of(camera),
+                                                    values_of(camera), result.covariance);
     const double sigma_mm = std::sqrt(result.covariance(0, 0));
-    if (!(sigma_mm <= kMostChange * camera.focal_length_mm)) {
+    if (!(sigma_mm <= core::calibration::FocalWalk::kMostChange * camera.focal_length_mm)) {
       return refused(ExitStatus::kJobFailed,
                      "no calibration: the docked pictures leave EFL and distance open, as a camera "
                      "does that looks square at the sheet, expected one that looks aslant at it, "
@@ -133,7 +153,7 @@ class FocalSearch {
       result.status = ExitStatus::kJobFailed;
       drivers::print(result.message,
                      "no calibration: docked so, the EFL is known to %.3f mm and the map from "
-                     "pixels to rays to %.1f px only, expected 1 px: more dockings, a type whose "
+                     "pixels to rays to %.1f px only, expected 3 px: more dockings, a type whose "
                      "cameras differ less (sigma in [camera_quality]), or a template",
                      sigma_mm, result.map.rms_px);
     }
@@ -154,6 +174,20 @@ FreedFocal free_focal(DockedPoses& poses, std::span<const DockedPictures> dockin
                       std::span<const PictureStarts> starts,
                       const drivers::CalibrationQuality& type, ProgressLine& progress) {
   return FocalSearch(poses, dockings, starts, progress).run(covariance_of(type));
+}
+
+double tip_by_freed(const FreedFocal& freed, const core::CameraSettings& camera,
+                    const core::Transform<core::frames::Camera, core::frames::Tool>& T,
+                    const core::TubesheetSettings& sheet) {
+  core::calibration::TipSituation situation;
+  const auto lengths_mm = core::tubesheet::step_lengths_mm(sheet);
+  situation.pitch_mm = std::min(lengths_mm[0], lengths_mm[1]);
+  situation.tip_mm = T.translation_mm();
+  situation.R_camera_tool = T.rotation();
+  const auto tip =
+      core::calibration::tip_uncertainty(core::calibration::sensor_of(camera), values_of(camera),
+                                         freed.covariance, situation, kFreedGap_mm);
+  return tip.told() ? tip.across_mm : -1.0;
 }
 
 }  // namespace tubesight::board

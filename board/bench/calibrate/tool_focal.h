@@ -19,7 +19,8 @@ struct FreedFocal {
   std::string message;  ///< why not kDone, without the session's name unless a picture is to blame
   core::calibration::DockingFocal focal;
   core::math::Matrix6d covariance = core::math::Matrix6d::Zero();  ///< of the camera's parameters
-  core::calibration::MapUncertainty map;
+  core::calibration::MapUncertainty map;                           ///< but for a turn of the camera
+  double tip_mm = 0.0;  ///< as of tip_by_freed(); 0: not told yet
 };
 
 /// Finds the EFL that all dockings agree on, from the type's on, within a tenth of it. `poses` goes
@@ -31,6 +32,17 @@ struct FreedFocal {
                                     std::span<const PictureStarts> starts,
                                     const drivers::CalibrationQuality& type,
                                     ProgressLine& progress);
+
+/// How far below the sheet tip_by_freed() looks: as far as a tool works.
+inline constexpr double kFreedGap_mm = 90.0;
+
+/// How well the tip's place across the sheet is known there by a camera so calibrated, one standard
+/// deviation along the worse axis, where the tool was docked with it; what such a camera is judged
+/// by. Negative: too few tube-ends are in the picture there to tell.
+[[nodiscard]] double tip_by_freed(
+    const FreedFocal& freed, const core::CameraSettings& camera,
+    const core::Transform<core::frames::Camera, core::frames::Tool>& T,
+    const core::TubesheetSettings& sheet);
 
 /// What a camera so calibrated may be used for.
 inline constexpr std::string_view kFreedFocalUse =

@@ -31,6 +31,9 @@ void append_focal(const ToolReport& report, std::string& text) {
                  "  map uncertainty       %.3f px RMS over the picture (one sigma), %.3f px at "
                  "(%.0f, %.0f)\n",
                  freed.map.rms_px, freed.map.worst_px, freed.map.worst_u_px, freed.map.worst_v_px);
+  drivers::print(text,
+                 "  tip by this camera    %.3f mm across (one sigma), %.0f mm below the sheet\n",
+                 freed.tip_mm, kFreedGap_mm);
   drivers::print(text, "  good for              %.*s\n", static_cast<int>(kFreedFocalUse.size()),
                  kFreedFocalUse.data());
 }

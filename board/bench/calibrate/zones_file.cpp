@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "board/bench/output/csv_cells.h"
 #include "drivers/files/zones_file.h"
-#include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
 
@@ -13,22 +13,17 @@ using core::calibration::ZonePoint;
 bool read_zones(const std::string& path, core::calibration::ZonePoints& points,
                 std::vector<std::string>& messages) {
   points.clear();
-  drivers::DiskFiles files;
   std::string text;
-  std::string message;
-  if (!files.read(path, text, message)) {
-    messages.push_back(path + ": " + message);
+  if (!read_whole(path, text, messages)) {
     return false;
   }
   std::vector<drivers::ZoneRow> rows;
   const bool good = drivers::read_zone_rows(
       text, path, static_cast<std::size_t>(core::calibration::kMaxZones), rows, messages);
   for (const drivers::ZoneRow& row : rows) {
-    ZonePoint point;
-    point.at_mm << row.at_mm[0], row.at_mm[1];
-    point.off_mm << row.off_mm[0], row.off_mm[1], row.off_mm[2];
-    point.sigma_mm = row.sigma_mm;
-    static_cast<void>(points.try_push_back(point));  // as many as were read have room
+    // As many as were read have room.
+    static_cast<void>(
+        points.try_push_back(core::calibration::zone_point(row.at_mm, row.off_mm, row.sigma_mm)));
   }
   return good;
 }

@@ -122,6 +122,33 @@ TEST_F(CameraMisfits, AFocusThatChangedIsSeenWhenTheStageComesBack) {
   EXPECT_EQ(calibrate(), CalibrationRefusal::kPattern);
 }
 
+TEST_F(CameraMisfits, AFocusThatChangedBetweenTwoHeightsIsNeverGoodForABase) {
+  noise_px_ = 0.002;
+  add_height(0.0);
+  truth_(0) *= 1.003;
+  add_height(30.0);
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone) << "nothing shows it";
+
+  EXPECT_NEAR(outcome_.unseen_lens, 112.0 / 30.0, 0.1);
+  EXPECT_NEAR(state_->camera(0) / 5.06 - 1.0, 0.003 * outcome_.unseen_lens, 0.002)
+      << "what is told of it";
+  EXPECT_LT(outcome_.judged_px, 0.05);
+  EXPECT_EQ(outcome_.verdict, Verdict::kPose);
+}
+
+TEST_F(CameraMisfits, AThirdViewBackAtTheFirstHeightVouchesForTheLens) {
+  noise_px_ = 0.002;
+  add_height(0.0);
+  add_height(30.0);
+  add_height(0.0);
+
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+
+  EXPECT_EQ(outcome_.unseen_lens, 0.0);
+  EXPECT_EQ(outcome_.verdict, Verdict::kBase);
+}
+
 TEST_F(CameraMisfits, HeightsInAnotherUnitAreRefusedWhereTheLensIsKnown) {
   data_->lens_mm = 5.2;
   add_stage();

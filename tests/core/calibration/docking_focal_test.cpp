@@ -137,5 +137,41 @@ TEST(DockingFocal, MovesTheTipByItsShareOfTheDistance) {
   EXPECT_NEAR(slope.head<2>().norm() + slope.tail<3>().norm(), 0.0, 1e-6);
 }
 
+TEST(FocalWalk, EndsWhereTheEflStays) {
+  FocalWalk walk(5.0);
+  DockingFocal found;
+  found.sigma_mm = 0.01;
+  found.focal_length_mm = 5.2;
+  EXPECT_EQ(walk.take(found, 5.0), FocalWalk::Step::kGoOn);
+  found.focal_length_mm = 5.2003;
+  EXPECT_EQ(walk.take(found, 5.2), FocalWalk::Step::kSettled);
+  found.focal_length_mm = 5.51;
+  EXPECT_EQ(walk.take(found, 5.2), FocalWalk::Step::kElsewhere);
+}
+
+TEST(FocalWalk, TakesNoEflThatGoesOnMoving) {
+  FocalWalk walk(5.0);
+  DockingFocal found;
+  found.sigma_mm = 0.01;
+  for (int i = 1; i < FocalWalk::kMostSteps; ++i) {
+    found.focal_length_mm = i % 2 == 0 ? 5.0 : 5.1;
+    EXPECT_EQ(walk.take(found, i % 2 == 0 ? 5.1 : 5.0), FocalWalk::Step::kGoOn) << i;
+  }
+  EXPECT_EQ(walk.take(found, 5.05), FocalWalk::Step::kRestless);
+}
+
+TEST(FocalWalk, TakesOneThatTremblesWithinItsDeviation) {
+  FocalWalk walk(5.0);
+  DockingFocal found;
+  found.sigma_mm = 0.01;
+  for (int i = 1; i < FocalWalk::kMostSteps; ++i) {
+    found.focal_length_mm = i % 2 == 0 ? 5.0 : 5.002;
+    EXPECT_EQ(walk.take(found, i % 2 == 0 ? 5.002 : 5.0), FocalWalk::Step::kGoOn) << i;
+  }
+  found.focal_length_mm = 5.0;
+  EXPECT_EQ(walk.take(found, 5.002), FocalWalk::Step::kSettled);
+  EXPECT_NEAR(walk.change_mm(), 0.002, 1e-12);
+}
+
 }  // namespace
 }  // namespace tubesight::core::calibration

@@ -91,6 +91,48 @@ TEST_F(VisionBudgetTest, NoiseOfThePictureCountsAsManyTimesAsItIsLarge) {
   EXPECT_LT(once, 0.05);
 }
 
+TEST_F(VisionBudgetTest, AnEflTooLongMakesUpForATipTooFar) {
+  // Of a camera square to the sheet: an EFL too long puts the sheet farther away, a tip too far
+  // from the camera nearer to it. One docking has both wrong alike.
+  core::ToolSettings tool;
+  tool.position_mm = {0.0, 30.0, 113.0};
+  model_ = *core::pose::make_pose_model(tests::source_camera(), tool, *sheet_);
+  VisionAssumptions exact;
+  exact.center_px = 0.0;
+  exact.tube_place_mm = 0.0;
+  core::pose::CalibrationUncertainty uncertainty;
+  uncertainty.camera_sigma[0] = 5.06e-3;
+  const double alone = share(uncertainty, VisionItem::kFocalLength, exact).along_mm;
+  uncertainty.tool_sigma[2] = alone;
+  EXPECT_NEAR(share(uncertainty, VisionItem::kTogether, exact).along_mm, std::sqrt(2.0) * alone,
+              0.01 * alone);
+
+  uncertainty.focal_length_correlation[2] = 1.0;
+  EXPECT_LT(share(uncertainty, VisionItem::kTogether, exact).along_mm, 0.02 * alone);
+  uncertainty.focal_length_correlation[2] = -1.0;
+  EXPECT_NEAR(share(uncertainty, VisionItem::kTogether, exact).along_mm, 2.0 * alone, 0.02 * alone);
+}
+
+TEST_F(VisionBudgetTest, TipAndAxisCountWithTheirCorrelation) {
+  // alpha turns about the camera's z, so it moves nothing of an axis along it; beta leans it along
+  // the camera's x: at 50 mm by 50 beta, which a tip off the other way takes back.
+  core::ToolSettings tool;
+  tool.position_mm = {0.0, 30.0, 113.0};
+  model_ = *core::pose::make_pose_model(tests::source_camera(), tool, *sheet_);
+  VisionAssumptions exact;
+  exact.center_px = 0.0;
+  exact.tube_place_mm = 0.0;
+  exact.height_mm = 50.0;
+  core::pose::CalibrationUncertainty uncertainty;
+  uncertainty.tool_sigma[4] = 0.1;
+  uncertainty.tool_sigma[0] = 50.0 * 0.1 * std::numbers::pi / 180.0;
+  uncertainty.tool_correlation(0, 4) = uncertainty.tool_correlation(4, 0) = -1.0;
+  EXPECT_LT(share(uncertainty, VisionItem::kTogether, exact).across_mm, 1e-6);
+  uncertainty.tool_correlation(0, 4) = uncertainty.tool_correlation(4, 0) = 1.0;
+  EXPECT_NEAR(share(uncertainty, VisionItem::kTogether, exact).across_mm,
+              2.0 * uncertainty.tool_sigma[0], 1e-6);
+}
+
 TEST_F(VisionBudgetTest, RefusesATooEmptyPicture) {
   sheet_->rows = {0, 0};
   sheet_->columns = {0, 2};
