@@ -52,8 +52,9 @@ Mm<S> tool_point_deviation(const SheetPose<S>& pose, const ToolPoint<S>& tool,
 }
 
 // On the image plane at unit distance: p the site, t the tip, and d the unit vector from t along
-// the guidetube. It is hidden where it is not farther beside the line than half the guidetube and a
-// bore, and not as far before its end.
+// the guidetube. Half of a bore's inside, which is looked at, is hidden where the site is not
+// farther beside the line than half the thickest guidetube and that half, and not as far before its
+// end: a disc across the axis, and so the shorter the more of its side is seen.
 template <Scalar S>
 bool clear_of_guidetube(const TrackingModel<S>& model, const SheetPose<S>& pose,
                         TubeAddress address) {
@@ -78,13 +79,15 @@ bool clear_of_guidetube(const TrackingModel<S>& model, const SheetPose<S>& pose,
     return false;
   }
   const M half = times(model.lattice.parameters().shortest_step, constant<M>(0.5));
-  const M thick = quotient<M>(half + model.bore_radius_mm, model.tip_mm.z);
+  const M looked_at = times(model.bore_radius_mm, constant<M>(0.5));
+  const M thick = quotient<M>(half + looked_at, model.tip_mm.z);
+  const M before_end = times(thick, absolute(axis.z));
   const Vector2<M> from_tip = *site - *tip;
   const M forward =
       quotient<M>(narrow<M>(product(from_tip.x, along.x) + product(from_tip.y, along.y)), length);
   const M aside =
       quotient<M>(narrow<M>(product(from_tip.x, along.y) - product(from_tip.y, along.x)), length);
-  return forward < -thick || absolute(aside) > thick;
+  return forward < -before_end || absolute(aside) > thick;
 }
 
 #define TUBESIGHT_INSTANTIATE(S)                                                   \

@@ -23,9 +23,9 @@ struct CalibrationQualityText {
 [[nodiscard]] std::string with_quality(const std::string& calibrated,
                                        const CalibrationQualityText& quality);
 
-/// Puts a settings file in its place; what stood there is kept as `path.bak`. Each of the two is old
-/// or new after a power cut, and new once this has returned. False, and why on standard error, when
-/// it does not get there.
+/// Puts a settings file in its place; what stood there is kept as `path.bak`. Each of the two is
+/// old or new after a power cut, and new once this has returned. False, and why on standard error,
+/// when it does not get there.
 [[nodiscard]] bool write_settings(const std::string& path, const std::string& text);
 
 /// Reads a file whole; false, and why with its name in `messages`, where it cannot be read.
