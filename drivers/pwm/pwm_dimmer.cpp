@@ -94,6 +94,9 @@ Result<void> PwmDimmer::take_channel() {
 Result<void> PwmDimmer::set_period(std::int64_t old_period_ns) {
   const bool runs = number_in(*files_, channel_ + "/enable") == 1;
   const std::string period = std::to_string(period_ns_);
+  if (old_period_ns == 0) {
+    return put("period", period);  // a channel without one has no pulse, and takes none
+  }
   if (!runs || old_period_ns <= 0 || !settings_.inverted) {
     TUBESIGHT_TRY(put("duty_cycle", "0"));
     return put("period", period);

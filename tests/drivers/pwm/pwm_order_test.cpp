@@ -21,6 +21,10 @@ class RuledFiles final : public drivers::PwmFiles {
 
   int write(const std::string& path, const std::string& value) override {
     const std::string name = path.substr(path.rfind('/') + 1);
+    // Nothing is applied to a channel that has no period yet, not even a pulse of 0.
+    if (number("period") == 0 && name != "period") {
+      return -EINVAL;
+    }
     if (name == "duty_cycle" && std::stoll(value) > number("period")) {
       return -EINVAL;
     }
@@ -29,9 +33,6 @@ class RuledFiles final : public drivers::PwmFiles {
     }
     if (name == "polarity" && number("enable") == 1) {
       return -EBUSY;
-    }
-    if (name == "enable" && value == "1" && number("period") == 0) {
-      return -EINVAL;
     }
     folder_.set("pwm0/" + name, value + "\n");
     written_.push_back(name + " " + value);
