@@ -72,7 +72,8 @@ def main():
         subprocess.run(["chmod", "-R", "u=rwX,go=rX", tree], check=True)
         name = f"tubesight-dbgsym_{tools.version}_{tools.architecture}.deb"
         # Compressed by several processors the bytes would depend on their number.
-        subprocess.run(["dpkg-deb", "--root-owner-group", f"-Z{tools.compression}", "-b", tree,
+        # Compressed within already: more than a little of it again takes minutes for nothing.
+        subprocess.run(["dpkg-deb", "--root-owner-group", f"-Z{tools.compression}", "-z1", "-b", tree,
                         pathlib.Path(tools.out, name)], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "DPKG_DEB_THREADS_MAX": "1"})
 

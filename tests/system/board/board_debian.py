@@ -3,14 +3,15 @@
 Nothing is configured that the tests do not need: what dpkg, systemd and a package's scripts stand on is
 there, and dpkg believes that no package is. What is written goes into memory.
 """
+import inspect
 import pathlib
 import shutil
 import subprocess
 
 from board_machine import Board
+from board_pwm import MEMORY_MB, device_tree
 from board_parts import FOLDER, ROOT, BoardError, initramfs, run
 
-MEMORY_MB = 1024
 PACKAGES = ("base-files", "base-passwd", "bash", "coreutils", "dash", "diffutils", "dpkg", "findutils",
             "grep", "init-system-helpers", "libc-bin", "libgpiod2", "libmodbus5", "libpng16-16",
             "libyaml-0-2", "mount", "perl-base", "sed", "systemd", "systemd-sysv", "udev", "util-linux")
@@ -103,7 +104,7 @@ def _configure(tree):
 def root():
     """The root's file, made once of what is fetched once."""
     made, recipe = FOLDER / "debian.squashfs", FOLDER / "debian.recipe"
-    text = pathlib.Path(__file__).read_text("utf-8")
+    text = "\n".join([*PACKAGES, *MASKED, SHELL, UNIT, *map(inspect.getsource, (_unpack, _configure))])
     if made.exists() and recipe.exists() and recipe.read_text("utf-8") == text:
         return made
     debs, tree = FOLDER / "debian.debs", FOLDER / "debian.tree"
@@ -125,10 +126,10 @@ def root():
     return made
 
 
-def debian_board(folder, share, modules=(), **more):
-    """A board that boots this Debian; Board.run and Board.do give commands once boot() is through."""
+def debian_board(folder, share):
+    """A board with a PWM that boots this Debian; Board.run and Board.do give commands once boot() is through."""
     init = folder / "init"
     init.write_text(INIT)
-    start = initramfs(folder / "debian.initramfs", ("virtio_blk", "squashfs", "overlay", *modules), init=init)
-    return Board(initramfs=start, disks=[root()], share=share, memory_mb=MEMORY_MB,
-                 append="systemd.show_status=0 quiet", **more)
+    start = initramfs(folder / "debian.initramfs", ("virtio_blk", "squashfs", "overlay", "pwm-bcm2835"), init=init)
+    return Board(initramfs=start, dtb=device_tree(folder), disks=[root()], share=share, memory_mb=MEMORY_MB,
+                 append="systemd.show_status=0 quiet")

@@ -7,11 +7,13 @@ The upgrade is to the same package under a later version. What needs no running 
 seconds by tests/checks/package_life.py.
 """
 import pathlib
+import re
 import sys
 import tempfile
 import time
 import unittest
 
+import board_pwm
 from board_debian import debian_board
 from board_parts import ROOT, BoardError
 
@@ -21,6 +23,22 @@ import package_life  # noqa: E402  (found by the line above)
 BOOT_S = 400.0  # a quiet machine takes 25
 STEP_S = 300.0
 SETTINGS = "/etc/tubesight/box.toml"
+# What the box's user may do in the service's sandbox, and what not.
+TRIED = """\
+say() { echo "= $1 $2"; }
+try() { if sh -c "$2"; then say "$1" yes; else say "$1" no; fi; }
+cd /sys/class/pwm/pwmchip0
+echo 0 > export
+tries=0
+until [ -w pwm0/enable ] || [ $tries -gt 100 ]; do sleep 0.2; tries=$((tries + 1)); done
+try pwm 'echo 100000 > pwm0/period && echo 50000 > pwm0/duty_cycle && echo 1 > pwm0/enable'
+try gpio ': < /dev/gpiochip0'
+try recording ': > /var/lib/tubesight/tried'
+try kernel 'echo 1 > /proc/sys/kernel/printk'
+try module 'echo 1 > /sys/module/printk/parameters/time'
+try disk ': < /dev/vda'
+try settings ': > /etc/tubesight/tried'
+"""
 PID = "systemctl show -P MainPID tubesightd"
 
 
@@ -95,9 +113,24 @@ class Package(unittest.TestCase):
                          ["tubesight:tubesight:750", "tubesight:tubesight:660"])
         self.assertRegex(self.do("grep ^tubesight: /etc/shadow"), r"^tubesight:[!*]")
 
-    def test_3_has_the_lines_of_a_lamp_from_the_rule(self):
+    def test_3_has_the_lamps_outputs_from_the_rule_and_past_the_sandbox(self):
         self.do("udevadm settle || true")
         self.assertEqual(self.do("stat -c %G:%a /dev/gpiochip0"), "tubesight:660")
+
+        # The unit as it is, with other commands in its place.
+        unit = self.do("cat /lib/systemd/system/tubesightd.service")
+        unit = re.sub(r"(?m)^(Type|NotifyAccess|WatchdogSec|Restart\w*|Exec\w+|Runtime\w+)=.*\n", "", unit)
+        (self.share / "try.service").write_text(unit.replace(
+            "[Service]\n", "[Service]\nType=oneshot\nExecStart=/bin/sh /share/try.sh\n"
+                           "StandardOutput=file:/run/try\nStandardError=file:/run/try\n"))
+        (self.share / "try.sh").write_text(TRIED)
+        self.do("cp /share/try.service /run/systemd/system/ && systemctl daemon-reload")
+        self.do("systemctl start try; true")
+
+        self.assertEqual([line for line in self.do("cat /run/try").splitlines() if line.startswith("=")],
+                         ["= pwm yes", "= gpio yes", "= recording yes", "= kernel no", "= module no",
+                          "= disk no", "= settings no"], self.do("cat /run/try"))
+        self.assertEqual(board_pwm.registers(self.board), (True, 960, 480), "100 us, half of it lit")
 
     def test_4_keeps_the_users_settings_and_starts_anew_at_an_upgrade(self):
         before = self.do(PID)
