@@ -77,7 +77,8 @@ trap 'rm -rf "$work"' EXIT
 # --- the root: a squashfs, by what it is made of
 
 key=$({ (cd "$cache" && ls root_debs boot_debs); sha256sum < "$package"
-  find "$here" -type f ! -name 'tubesight.txt' | sort | xargs sha256sum; } | sha256sum | cut -c1-16)
+  find "$here"/{files,root_tar.py,select_modules.py,root_packages.txt,root_modules.txt} \
+    board/visionbox/image.sh -type f | sort | xargs sha256sum; } | sha256sum | cut -c1-16)
 root=$cache/root-$key.squashfs
 
 # Copies the modules that a list of patterns names, with what they need, and indexes them.
@@ -156,8 +157,10 @@ put() { dd if="$1" of="$image" bs=1M seek="$2" conv=notrunc,sparse status=none; 
 put "$work/boot.fat" $boot_at
 put "$root" $root_a_at
 put "$root" $root_b_at
-# Nothing is left for the kernel to write later in its own time, and the image stays the same.
+# Nothing is left for the kernel to write later in its own time, and the image stays the same. Blocks and
+# inodes as of the card that it grows to.
 E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -L tubesight-data -m 1 \
+  -b 4096 -I 256 -i 16384 \
   -U 74756265-7369-6768-7400-000000000001 \
   -E "hash_seed=74756265-7369-6768-7400-000000000002,lazy_itable_init=0,lazy_journal_init=0,offset=$((data_at * 1048576))" \
   "$image" ${data_size}M
