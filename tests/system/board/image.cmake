@@ -5,7 +5,7 @@ find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 
 if(NOT CMAKE_CROSSCOMPILING AND CMAKE_BUILD_TYPE MATCHES "^Rel")
   add_test(NAME board.image_parts COMMAND Python3::Interpreter -B ${here}/image_parts_test.py)
-  set_tests_properties(board.image_parts PROPERTIES TIMEOUT 300)
+  set_tests_properties(board.image_parts PROPERTIES TIMEOUT 600)
   # With the package that package.sh builds.
   add_test(NAME board.image_long COMMAND Python3::Interpreter -B ${here}/image_test.py --long)
   set_tests_properties(board.image_long PROPERTIES LABELS long TIMEOUT 7200 RUN_SERIAL ON)
