@@ -43,6 +43,7 @@ test=(
   qemu-system-arm       # the emulated board: tests/system/board/
   kmod                  # the order in which its kernel's modules are loaded
   device-tree-compiler  # its PWM
+  squashfs-tools        # its Debian, on which the package is installed
 )
 board=(
   cmake

@@ -33,5 +33,5 @@ cpack --config "build/$preset/CPackConfig.cmake" -B "$work" > "$work/log" 2>&1 |
   exit 1
 }
 mkdir -p "$folder"
-mv "$work"/*.*deb "$folder"
-ls -l "$folder"/*_"$architecture".*deb
+mv "$work"/*.deb "$folder"
+ls -l "$folder"/*_"$architecture".deb

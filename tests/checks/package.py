@@ -25,11 +25,11 @@ import package_life
 from source_text import report
 
 EPOCH = 1700000000
-EXPOSURE = 19
+EXPOSURE = 17
 PROGRAMS = ["tubesight", "tubesightctl", "tubesightd"]
 WANTED = ["./etc/tubesight/box.toml", "./usr/lib/systemd/system/tubesightd.service",
           "./usr/lib/sysusers.d/tubesight.conf", "./usr/lib/udev/rules.d/60-tubesight.rules",
-          "./usr/share/doc/tubesight/README.md", "./usr/share/doc/tubesight/changelog.Debian.gz",
+          "./usr/share/doc/tubesight/README.md", "./usr/share/doc/tubesight/changelog.gz",
           "./usr/share/doc/tubesight/copyright", "./usr/share/doc/tubesight/tubesight.spdx.json",
           "./usr/share/doc/tubesight/docs/examples/steam-generator.toml"] + [
     name for program in PROGRAMS for name in (
@@ -170,7 +170,7 @@ def check_build(cpack, build, readelf):
         status, said = run(cpack, "--config", f"{build}/CPackConfig.cmake", "-B", folder,
                            "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip",
                            env={**os.environ, "SOURCE_DATE_EPOCH": str(EPOCH), "LC_ALL": "C"})
-        packages = sorted(pathlib.Path(folder).glob("*.*deb"))
+        packages = sorted(pathlib.Path(folder).glob("*.deb"))
         if status != 0:
             return [f"cpack: {status} {said}"]
         # Boards' presets alone have the options that these ask for.
@@ -208,7 +208,7 @@ def main(arguments):
     if arguments == ["--self-test"]:
         return self_test()
     if len(arguments) > 2 and arguments[0] == "--made":
-        packages = sorted(pathlib.Path(arguments[1]).glob("*.*deb"))
+        packages = sorted(pathlib.Path(arguments[1]).glob("*.deb"))
         problems = check_made(packages, arguments[2], arguments[3:]) + check_lintian(packages)
     elif len(arguments) == 3:
         problems = check_build(*arguments)

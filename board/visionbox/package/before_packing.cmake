@@ -7,11 +7,21 @@ set(documents ${root}/usr/share/doc/tubesight)
 file(COPY ${here}/box.toml DESTINATION ${root}/etc/tubesight)
 file(COPY ${here}/copyright DESTINATION ${documents})
 file(REMOVE ${documents}/LICENSE)  # copyright says where Debian has it
-file(COPY_FILE ${here}/changelog ${documents}/changelog.Debian)
+file(COPY_FILE ${here}/changelog ${documents}/changelog)
 
 file(GLOB pages ${root}/usr/share/man/man1/*.1)
-execute_process(COMMAND gzip -9n ${pages} ${documents}/changelog.Debian COMMAND_ERROR_IS_FATAL ANY)
+execute_process(
+  COMMAND gzip -9n ${pages} ${documents}/changelog COMMAND_ERROR_IS_FATAL ANY)
 
+execute_process(
+  COMMAND ${CPACK_TUBESIGHT_PYTHON} -B ${here}/symbols.py
+    --version ${CPACK_PACKAGE_VERSION} --architecture ${CPACK_DEBIAN_PACKAGE_ARCHITECTURE}
+    --objcopy ${CPACK_TUBESIGHT_OBJCOPY} --readelf ${CPACK_TUBESIGHT_READELF}
+    --root ${root} --out ${CPACK_PACKAGE_DIRECTORY}
+    --compression ${CPACK_DEBIAN_COMPRESSION_TYPE}
+  COMMAND_ERROR_IS_FATAL ANY)
+
+# Of the programs as they are packed.
 execute_process(
   COMMAND ${CPACK_TUBESIGHT_PYTHON} -B ${here}/bill_of_materials.py
     --version ${CPACK_PACKAGE_VERSION} --architecture ${CPACK_DEBIAN_PACKAGE_ARCHITECTURE}

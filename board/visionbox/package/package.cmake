@@ -13,22 +13,20 @@ set(CPACK_PACKAGE_CONTACT "Tubesight engineers <box@tubesight.example>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "vision box of a steam-generator servicing robot")
 set(CPACK_PACKAGE_DESCRIPTION
 "Looks through the camera of a robot's tool at a tubesheet, tracks the open
- tube-ends, and tells the robot which tube its guidetube is under, whether that
- is the tube the robot believes, and where the tool is.
- .
- The package has the box as a service (tubesightd), the program that asks it
- (tubesightctl), and the one for calibration, recordings and simulation
- (tubesight).")
+tube-ends, and tells the robot which tube its guidetube is under, whether that
+is the tube the robot believes, and where the tool is.
+
+The package has the box as a service (tubesightd), the program that asks it
+(tubesightctl), and the one for calibration, recordings and simulation
+(tubesight).")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES OFF)  # the generator takes the symbols out, into a package of their own
+set(CPACK_STRIP_FILES OFF)  # symbols.py does
 set(CPACK_THREADS 1)        # compressed in blocks, a package would depend on the number of processors
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
-set(CPACK_DEBIAN_DEBUGINFO_PACKAGE ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${here}/conffiles ${here}/postinst ${here}/prerm ${here}/postrm)
@@ -44,6 +42,7 @@ set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE ${architecture_of_${CMAKE_SYSTEM_PROCESSOR
 set(CPACK_TUBESIGHT_SOURCE ${PROJECT_SOURCE_DIR})
 set(CPACK_TUBESIGHT_BUILD ${PROJECT_BINARY_DIR})
 set(CPACK_TUBESIGHT_SYSROOT ${CMAKE_FIND_ROOT_PATH})
+set(CPACK_TUBESIGHT_OBJCOPY ${CMAKE_OBJCOPY})
 set(CPACK_TUBESIGHT_READELF ${CMAKE_READELF})
 find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 set(CPACK_TUBESIGHT_PYTHON ${Python3_EXECUTABLE})
