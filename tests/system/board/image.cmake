@@ -8,9 +8,9 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_BUILD_TYPE MATCHES "^Rel")
   set_tests_properties(board.image_parts PROPERTIES TIMEOUT 600)
   # With the package that package.sh builds.
   add_test(NAME board.image_long COMMAND Python3::Interpreter -B ${here}/image_test.py --long)
-  set_tests_properties(board.image_long PROPERTIES LABELS long TIMEOUT 7200 RUN_SERIAL ON)
+  set_tests_properties(board.image_long PROPERTIES LABELS "board;long" TIMEOUT 14400 RUN_SERIAL ON)
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64 AND TARGET tubesightd)
   add_test(NAME board.image COMMAND Python3::Interpreter -B ${here}/image_test.py
     --cpack ${CMAKE_CPACK_COMMAND} --build ${PROJECT_BINARY_DIR})
-  set_tests_properties(board.image PROPERTIES TIMEOUT 1200 COST 90)
+  set_tests_properties(board.image PROPERTIES LABELS board TIMEOUT 1500 COST 1000)
 endif()

@@ -31,7 +31,7 @@ MIB = 1 << 20
 BOOT_PARTITION, ROOT_A, ROOT_B, DATA = (at * MIB for at in (16, 192, 448, 704))
 COPIES = (8192 * 512, 16384 * 512)
 GROWN = 900 * MIB  # a card is larger than the image
-ANSWER_S = 420.0   # a quiet machine takes 30
+ANSWER_S = 900.0   # a quiet machine takes 35
 PATIENCE_S = 240.0  # the 90 s that a box has to answer in, on a busy machine
 
 
