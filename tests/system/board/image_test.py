@@ -32,6 +32,7 @@ BOOT_PARTITION, ROOT_A, ROOT_B, DATA = (at * MIB for at in (16, 192, 448, 704))
 COPIES = (8192 * 512, 16384 * 512)
 GROWN = 900 * MIB  # a card is larger than the image
 ANSWER_S = 900.0   # a quiet machine takes 35
+START_S = 300.0    # U-Boot takes 5
 PATIENCE_S = 240.0  # the 90 s that a box has to answer in, on a busy machine
 
 
@@ -116,7 +117,7 @@ def boot_to_answer(disk, slot, count=1):
     """One boot until the slot is good, then a power cut; what the console said."""
     begin = time.monotonic()
     with powered(disk) as board:
-        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", 120)
+        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", START_S)
         board.expect(rf"slot {slot} is good: the box answers", ANSWER_S)
         say(f"  slot {slot} answers {time.monotonic() - begin:.0f} s after power on")
         return board.console
@@ -125,7 +126,7 @@ def boot_to_answer(disk, slot, count=1):
 def boot_to_reboot(disk, slot, count, seconds):
     """One boot that comes to no answer and ends itself."""
     with powered(disk) as board:
-        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", 120)
+        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", START_S)
         board.wait_off(seconds)
         return board.console
 
