@@ -304,9 +304,8 @@ def test_network(disk, work):
         expect(others, [], "what else listens")
         expect(ask("hostname").strip(), "box-8", "the name")
         expect(ask("systemctl --failed --no-legend --plain").strip(), "", "units that failed")
-        expect(ask("ps -o user= -C tubesightd").strip(), "tubesig+", "the box's user")
-        say("  " + ask("systemd-analyze security tubesightd --no-pager | tail -n 1; free -m | sed -n 2p;"
-                       " systemd-analyze").strip().replace("\n", "\n  "))
+        expect(ask("ps -o user= -C tubesightd").strip(), "tubesight", "the box's user")
+        say("  " + ask("free -m | sed -n 2p").strip())
 
 
 def build(out, package, cache=CACHE):
