@@ -33,7 +33,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 here=board/visionbox/image
 cache=${TUBESIGHT_IMAGE_CACHE:-build/image}
 export PATH=$PATH:/usr/sbin:/sbin TZ=UTC
-export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git --no-optional-locks log -1 --format=%ct)}
+# The latest time that a file of the image bears. Of the recipe, not of any commit: the root is kept longer.
+export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git --no-optional-locks log -1 --format=%ct -- \
+  board/visionbox/image board/visionbox/image.sh)}
 
 # Where what begins, in MiB. Before the first partition stand the two copies of the boot count.
 boot_at=16 boot_size=176
@@ -55,6 +57,8 @@ packages() { sed -n 's/^\([a-z][^ #]*\).*/\1/p' "$here/root_packages.txt"; }
 boot_packages=(linux-image-arm64/newest raspi-firmware u-boot-rpi u-boot-qemu e2fsck-static busybox-static)
 wanted=$(packages; printf '%s\n' "${boot_packages[@]}")
 mkdir -p "$cache"
+exec 9> "$cache/lock"
+flock 9
 if [ $refresh = yes ] || [ "$(cat "$cache/packages.txt" 2> /dev/null)" != "$wanted" ]; then
   rm -rf "$cache"/{packages.txt,root_debs,boot_debs,boot}
   toolchain/debian_download.sh --component non-free-firmware arm64 "$cache/boot_debs" "${boot_packages[@]}" &
@@ -76,8 +80,9 @@ trap 'rm -rf "$work"' EXIT
 
 # --- the root: a squashfs, by what it is made of
 
-key=$({ (cd "$cache" && ls root_debs boot_debs); sha256sum < "$package"
-  find "$here" -type f ! -name 'tubesight.txt' | sort | xargs sha256sum; } | sha256sum | cut -c1-16)
+key=$({ (cd "$cache" && ls root_debs boot_debs); echo "$SOURCE_DATE_EPOCH"; sha256sum < "$package"
+  find "$here"/{files,root_tar.py,select_modules.py,root_packages.txt,root_modules.txt} \
+    board/visionbox/image.sh -type f | sort | xargs sha256sum; } | sha256sum | cut -c1-16)
 root=$cache/root-$key.squashfs
 
 # Copies the modules that a list of patterns names, with what they need, and indexes them.
@@ -104,8 +109,8 @@ if [ ! -f "$root" ]; then
   python3 -B "$here/root_tar.py" "$work/root.tar" "$SOURCE_DATE_EPOCH" "$here/files" "$work/modules" \
     "$here/root_packages.txt" "${debs[@]}" "$package"
   rm -f "$cache"/root-*.squashfs
-  # zstd: a card gives 20 to 40 MB a second, the processor unpacks ten times that; lz4 would be half as
-  # large again. Above this level it takes four times as long for 3 % less.
+  # zstd: a card gives 20 to 40 MB a second and the processor unpacks more than that; with lz4 half as much
+  # again would have to be read.
   mksquashfs - "$work/root.squashfs" -tar -quiet -no-progress -noappend \
     -b 256K -comp zstd -Xcompression-level 9 < "$work/root.tar" > "$work/log" 2>&1 \
     || fail "the root could not be packed: $(tail -n 3 "$work/log")"
@@ -156,8 +161,10 @@ put() { dd if="$1" of="$image" bs=1M seek="$2" conv=notrunc,sparse status=none; 
 put "$work/boot.fat" $boot_at
 put "$root" $root_a_at
 put "$root" $root_b_at
-# Nothing is left for the kernel to write later in its own time, and the image stays the same.
+# Nothing is left for the kernel to write later in its own time, and the image stays the same. Blocks and
+# inodes as of the card that it grows to.
 E2FSPROGS_FAKE_TIME=$SOURCE_DATE_EPOCH mke2fs -q -t ext4 -L tubesight-data -m 1 \
+  -b 4096 -I 256 -i 16384 \
   -U 74756265-7369-6768-7400-000000000001 \
   -E "hash_seed=74756265-7369-6768-7400-000000000002,lazy_itable_init=0,lazy_journal_init=0,offset=$((data_at * 1048576))" \
   "$image" ${data_size}M

@@ -94,17 +94,23 @@ def package_fields(deb):
 
 def add_packages(root, debs, left_out):
     """Unpacks them, in the order of their names, and writes down which they are."""
-    status = []
+    status, names, needs = [], set(), []
     for deb in sorted(debs, key=lambda path: pathlib.Path(path).name):
         fields = package_fields(deb)
         name = re.search(r"^Package: (.*)$", fields, re.M).group(1)
         if name in left_out:
             continue
+        names.add(name)
+        if name == "tubesight":
+            needs = re.findall(r"^Depends: (.*)$", fields, re.M)
         with subprocess.Popen(["dpkg-deb", "--fsys-tarfile", deb], stdout=subprocess.PIPE) as unpack:
             root.add_tar(unpack.stdout)
         if unpack.returncode != 0:
             raise SystemExit(f"root_tar.py: {deb}: cannot be unpacked")
         status.append(fields.replace("\n", "\nStatus: install ok installed\n", 1))
+    for need in ", ".join(needs).split(", ") if needs else ():
+        if not names & {choice.split("(")[0].strip() for choice in need.split("|")}:
+            raise SystemExit(f"root_packages.txt: tubesight needs {need}, which the root does not have")
     root.add_text("var/lib/dpkg/status", "\n".join(status))
 
 
