@@ -22,9 +22,9 @@ struct CalibrationQualityText {
 [[nodiscard]] std::string with_quality(const std::string& calibrated,
                                        const CalibrationQualityText& quality);
 
-/// Puts a settings file in its place; what stood there is kept as `path.bak`. Each of the two is old
-/// or new after a power cut, and new once this has returned. False, and why on standard error, when
-/// it does not get there.
+/// Puts a settings file in its place; what stood there is kept as `path.bak`. Each of the two is
+/// old or new after a power cut, and new once this has returned. False, and why on standard error,
+/// when it does not get there.
 [[nodiscard]] bool write_settings(const std::string& path, const std::string& text);
 
 /// The correlation of two of six parameters; 0 where one is held.
