@@ -3,18 +3,19 @@
 #
 # Usage: ./test.sh                 the stages format, bench, bench-asan, visionbox-qemu and bench-fuzz
 #        ./test.sh quick           while you work: format and bench-quick
-#        ./test.sh long            what the default leaves out: bench-long and bench-tidy
+#        ./test.sh long            what the default leaves out: bench-long, bench-tidy and board-long
 #        ./test.sh STAGE...        some of them
 #
 #   format          clang-format finds nothing to change
 #   bench           optimised build, warnings are errors, every header compiled alone, all tests and
 #                   checks but those labelled `long`
 #   bench-asan      the tests under the address and undefined-behaviour sanitizers, built by clang
-#   visionbox-qemu  arm64 build, its tests run under emulation
+#   visionbox-qemu  arm64 build, its tests run under emulation, and those of the emulated board
 #   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
 #   bench-quick     the program and the tests that take less than a second, compiled in less time, layering
 #   bench-long      each source and each header compiled alone, and the tests labelled `long`
 #   bench-tidy      clang-tidy on all but the tests
+#   board-long      in the folder of visionbox-qemu: the tests of the emulated board labelled `long`
 #
 # `./test.sh long` is to be run before a version is given away, after a change of the tracking, of the
 # judging or of the campaign, and when a test or helper moves. CONTRIBUTING.md has what each stage costs.
@@ -25,13 +26,13 @@ stages=("$@")
 [ ${#stages[@]} -gt 0 ] || stages=(format bench bench-asan visionbox-qemu bench-fuzz)
 case ${stages[*]} in
   quick) stages=(format bench-quick) ;;
-  long) stages=(bench-long bench-tidy) ;;
+  long) stages=(bench-long bench-tidy board-long) ;;
 esac
 for stage in "${stages[@]}"; do
   case $stage in
-    format | bench | bench-asan | bench-fuzz | visionbox-qemu | bench-quick | bench-long | bench-tidy) ;;
+    format | bench | bench-asan | bench-fuzz | visionbox-qemu | bench-quick | bench-long | bench-tidy | board-long) ;;
     *)
-      echo "$0: unknown stage '$stage'; sed -n 2,19p $0 lists them" >&2
+      echo "$0: unknown stage '$stage'; sed -n 2,20p $0 lists them" >&2
       exit 2
       ;;
   esac
@@ -68,13 +69,17 @@ measured() {
 folder_of() {
   case $1 in
     bench-fuzz) echo bench-asan ;;
+    board-long) echo visionbox-qemu ;;
     *) echo "$1" ;;
   esac
 }
 
 build_stage() {
   case $1 in
-    visionbox-qemu) toolchain/debian_sysroot.sh arm64 build/sysroot-arm64 || return 1 ;;
+    visionbox-qemu | board-long)
+      toolchain/debian_sysroot.sh arm64 build/sysroot-arm64 || return 1
+      python3 -B tests/system/board/board_parts.py || return 1
+      ;;
     bench)
       toolchain/gpiod2.sh build/gpiod2 \
         || echo "=== libgpiod 2.x is not tested: its header could not be fetched"
@@ -115,6 +120,7 @@ for stage in "${stages[@]}"; do
   case $stage in
     format | bench-tidy) continue ;;
     bench-fuzz) result=build/bench-asan/ctest-fuzz.xml ;;
+    board-long) result=build/visionbox-qemu/ctest-board-long.xml ;;
   esac
   rm -f "$result"
   results+=("$result")

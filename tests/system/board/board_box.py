@@ -346,10 +346,15 @@ class Box:
             time.sleep(0.2)  # a program's start takes the board more than a field does
         return status
 
-    def start_tracking(self, seconds=20.0):
-        """The robot starts the box, again while the camera has not come back."""
+    def start_tracking(self, station=0, seconds=20.0):
+        """The robot starts the box at a station, again while the camera has not come back. The pictures of
+        all stations are alike: the clicks have the same places and the tubes of the station."""
+        (row, column), (first_row, first_column) = (self.scenario.stations[at][2]
+                                                    for at in (station, 0))
+        clicks = [(r + row - first_row, c + column - first_column, u, v)
+                  for r, c, u, v in self.scenario.clicks]
         due = time.monotonic() + seconds
-        while (done := self.robot.start(self.scenario.clicks)) != (1, 0):
+        while (done := self.robot.start(clicks)) != (1, 0):
             if time.monotonic() > due:
                 raise BoardError(f"the start is refused: {done}\n{self.status()['text']}")
 

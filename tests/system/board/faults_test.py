@@ -58,14 +58,19 @@ class Faults(board_case.BoardCase):
             self.assertLess(time.monotonic(), due, f"{seen}\n{self.box.status()['text']}")
         self.vouches_for(self.tube)
 
-    def fails(self, control, value, counter, words="", during=None):
+    def fails(self, control, value, counter, words="", during=None, again=False):
         """Injects a fault of the camera, waits until the box names it, and sees it come back."""
         begin = time.monotonic()
         before = self.box.status()["camera"]
         self.box.inject(control, value)
-        named = self.box.wait_status(
-            lambda status: status["camera"][counter] > before[counter]
-            and words in status["camera"]["words"], f"{control} is not named {counter}, '{words}'")
+
+        def is_named(status):
+            named = (status["camera"][counter] > before[counter]
+                     and words in status["camera"]["words"])
+            if again and not named:
+                self.box.inject(control, value)
+            return named
+        named = self.box.wait_status(is_named, f"{control} is not named {counter}, '{words}'")
         seen = self.box.robot.sighting()
         if seen.vouched:
             self.assertEqual(seen.tube, self.tube, control)
@@ -88,9 +93,8 @@ class Faults(board_case.BoardCase):
                    during=lambda: self.box.inject("Percentage of Dropped Buffers", 0))
 
     def test_1_camera_flags_errors(self):
-        self.box.hold_picture(True)
-        self.fails("Inject V4L2_BUF_FLAG_ERROR", 1, "flagged",
-                   during=lambda: self.box.hold_picture(False))
+        # The flag is on a picture of either node, or on none.
+        self.fails("Inject V4L2_BUF_FLAG_ERROR", 1, "flagged", again=True)
 
     def test_1_camera_refuses_a_buffer(self):
         self.box.hold_picture(True)

@@ -6,6 +6,7 @@ import time
 
 import board_case
 import board_pwm
+from board_box import LOST
 
 RECORD = """
 [record]
@@ -69,16 +70,20 @@ class Sighting(board_case.BoardCase):
         cpu, begin = self.cpu_s(), box.clock_s()
         faults = [(each[7], each[9]) for each in self.threads() if each[38] == str(SCHED_FIFO)]
 
-        verdicts, seen = [], []
+        verdicts, seen, restarts = [], [], 0
         for index, (_, _, tube) in enumerate(self.scenario.stations):
             if index > 0:
                 box.go_on()
-                # On its way it vouches for what is true, or for nothing: judged below by the pixels.
-                due = time.monotonic() + 20.0
-                while not (seen[-1].vouched and seen[-1].tube == tube):
-                    self.assertLess(time.monotonic(), due, f"never under {tube}: {seen[-1]}")
-                    verdicts.append(box.robot.claim(tube))
-                    seen.append(box.robot.sighting())
+            # On its way it vouches for what is true, or for nothing: judged below by the pixels.
+            moved, due = box.clock_s(), time.monotonic() + 40.0
+            while not (seen and seen[-1].vouched and seen[-1].tube == tube):
+                self.assertLess(time.monotonic(), due, f"never under {tube}: {seen[-1:]}")
+                verdicts.append(box.robot.claim(tube))
+                seen.append(box.robot.sighting())
+                # Where the PC itself stood still, pictures are missing and the track is lost.
+                if seen[-1].state == LOST and box.clock_s() - moved > 4.0:
+                    restarts += 1
+                    box.start_tracking(index)
             verdicts += self.vouches_for(tube)
             seen.append(box.robot.sighting())
         share = (self.cpu_s() - cpu) / (box.clock_s() - begin)
@@ -87,7 +92,7 @@ class Sighting(board_case.BoardCase):
         known = [each for each in verdicts if each.word == "AGREE"]
         print(f"{len(recorded)} fields with the scenario's pixels, {self.judge(verdicts, seen, recorded)}"
               f" answers as the truth has them, {sum(each.word == 'CANNOT SAY' for each in verdicts)}"
-              " times CANNOT SAY")
+              f" times CANNOT SAY, {restarts} restarts")
         # A wrong tube, a wrong verdict, another field's pixels and a counter that goes back are found.
         row, column = known[0].seen
         for planted in ((dataclasses.replace(known[0], seen=(row + 1, column)), seen, recorded),
@@ -112,7 +117,7 @@ class Sighting(board_case.BoardCase):
         self.assertEqual(sorted({*range(len(stations))} - {*places}), [])
         for earlier, later in zip(seen, seen[1:]):
             self.assertGreaterEqual(later.field, earlier.field)
-            self.assertGreater(later.judged, earlier.judged)
+            self.assertGreaterEqual(later.judged, earlier.judged)
             self.assertEqual(later.boot, earlier.boot)
         looked_up = 0
         for verdict in verdicts:
