@@ -41,6 +41,7 @@ test=(
   qemu-user-static      # runs its tests
   qemu-system-arm       # the emulated board: tests/system/board/
   kmod                  # the order in which its kernel's modules are loaded
+  e2fsprogs             # the file system that power cuts leave
   device-tree-compiler  # its PWM
 )
 board=(

@@ -32,7 +32,7 @@ import time
 
 import power_cut_share
 import write_log
-from board_machine import Board
+from board_machine import STEADY, Board
 from board_parts import ROOT, BoardError, initramfs, libraries, run, tool
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -187,8 +187,9 @@ class PowerCuts:
         drawn_by = [[path] for path in options.draw if os.access(path, os.X_OK) and os.path.isfile(path)]
         power_cut_share.make(self._share, [*drawn_by, [*emulator, str(options.programs / "tubesight")]][0])
 
-    def _board(self, **more):
-        return Board(initramfs=self._initramfs, share=self._share, steady=True, **more)
+    def _board(self, arguments=(), **more):
+        # Its clock counts instructions, so that the boxes keep up with their pictures; it need not go before all.
+        return Board(initramfs=self._initramfs, share=self._share, arguments=(*STEADY, *arguments), **more)
 
     @staticmethod
     def _begin(board, preload=""):
