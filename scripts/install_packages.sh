@@ -43,6 +43,7 @@ test=(
   qemu-system-arm       # the emulated board: tests/system/board/
   kmod                  # the order in which its kernel's modules are loaded
   openssh-client        # the long test of its image comes in by the network
+  e2fsprogs             # the file system that power cuts leave
   device-tree-compiler  # its PWM
   squashfs-tools        # its Debian, on which the package is installed
 )
