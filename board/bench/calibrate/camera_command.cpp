@@ -93,6 +93,7 @@ bool draw(const CalibrateCameraOptions& options, const Workspace& work,
   } else {
     line += "good for " + std::string(use_of(outcome.verdict));
   }
+  std::replace(line.begin(), line.end(), ';', ',');  // the letters drawn have no semicolon
   std::string message;
   if (!write_camera_picture(options.picture, picture, message)) {
     tell(message);
