@@ -141,6 +141,19 @@ void add_recorder(JsonLine& line, const BoxReport& report) {
   line.close();
 }
 
+void add_supervision(JsonLine& line, const SupervisionReport& watched) {
+  line.open("supervision").add("stuck", watched.stuck);
+  line.open("watchdog").add("there", !watched.device.empty());
+  if (!watched.device.empty()) {
+    line.add("device", watched.device).add("armed", watched.armed);
+    line.add("timeout_s", watched.timeout_s).add("trouble", watched.trouble);
+  }
+  line.close();
+  line.open("manager").add("there", watched.manager).add("feed_within_ms", watched.manager_ms);
+  line.add("lost", watched.manager_lost).close();
+  line.close();
+}
+
 std::string sighting_text(const core::Sighting& sighting) {
   std::string text = std::string(core::name_of(sighting.state));
   if (sighting.reason != core::Reason::kNone) {
@@ -181,6 +194,7 @@ std::string status_text(const BoxReport& report) {
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
+  text += "\nwatchdog  " + watchdog_text(report.supervision);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
   return text;
@@ -216,6 +230,7 @@ std::string status_answer(const BoxReport& report) {
   line.add("known", report.zones_known).close();
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
+  add_supervision(line, report.supervision);
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
   return line.add("text", status_text(report)).finish();
 }

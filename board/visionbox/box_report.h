@@ -12,6 +12,7 @@
 #include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/recording_writer.h"
+#include "board/visionbox/supervisor.h"
 #include "board/visionbox/tracking_thread.h"
 
 namespace tubesight::board {
@@ -43,6 +44,7 @@ struct BoxReport {
   bool lock_wanted = false;
   double deadline_ms = 0.0;
   std::int64_t poses_passed_over = 0;
+  SupervisionReport supervision;
 };
 
 /// The answer to `status`: one JSON object in a line, with the same for a person under `text`.

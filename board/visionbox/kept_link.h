@@ -55,6 +55,10 @@ class KeptLink final : public hal::RobotLink {
   /// Any thread.
   [[nodiscard]] LinkReport report() const;
 
+  /// Times that the link's thread has come round, which this makes it do once more; -1: it could
+  /// not be opened yet, and there is none. Any thread.
+  [[nodiscard]] std::int64_t rounds() const { return open_ ? link_.rounds() : -1; }
+
  private:
   void try_to_open(MonotonicTime now);
 

@@ -20,6 +20,8 @@
 #include "board/visionbox/log.h"
 #include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/record_settings.h"
+#include "board/visionbox/service_manager.h"
+#include "board/visionbox/supervisor.h"
 #include "board/visionbox/vision_box.h"
 #include "drivers/control/control_server.h"
 
@@ -52,17 +54,29 @@ class EndSignals {
   int fd_ = -1;
 };
 
+/// Who watches over the box.
+struct Watched {
+  Supervisor& supervisor;
+  ServiceManager& manager;
+};
+
 /// Serves until a signal ends it.
 void serve(VisionBox& box, ControlDesk& desk, drivers::ControlServer& server, BoxWatch& watch,
-           const EndSignals& signals) {
+           const EndSignals& signals, const Watched& watched) {
   constexpr std::chrono::milliseconds kIdle{100};
   constexpr std::chrono::milliseconds kBusy{4};  // an answer comes with the next field
   bool ended = false;
+  std::string told;
   while (!ended) {
+    watched.supervisor.beat();
     ended = server.serve(desk.busy() ? kBusy : kIdle, signals.fd());
     desk.serve_replies(server, monotonic_now());
     box.look_after();
     watch.look(box.report());
+    if (watch.headline() != told) {
+      told = watch.headline();
+      watched.manager.say_status(told);
+    }
   }
 }
 
@@ -75,10 +89,13 @@ int run(const BoxSettings& settings) {
     return kWrongInput;
   }
   const auto box = std::make_unique<VisionBox>(settings, tell);
+  ServiceManager manager(service_environment(), tell);
+  Supervisor supervisor([&box] { return box->beats(); }, settings.watchdog, manager, tell);
   BoxWatch watch(tell);
   const auto report = [&] {
     BoxReport now = box->report();
     now.fields_per_s = watch.fields_per_s();
+    now.supervision = supervisor.report();
     return now;
   };
   ControlDesk desk(report, *box, settings.told().start);
@@ -92,10 +109,15 @@ int run(const BoxSettings& settings) {
     return kFailed;
   }
   log.say("started, " + std::string(program_version()));
-  serve(*box, desk, server, watch, signals);
+  supervisor.start();
+  manager.say_ready();
+  serve(*box, desk, server, watch, signals, {supervisor, manager});
+  manager.say_stopping();
+  supervisor.begin_to_stop();
   box->stop();
   desk.serve_replies(server, monotonic_now());  // what stop() wrote, somebody may wait for
   server.stop();
+  supervisor.stop();
   log.say("stopped");
   return kDone;
 }

@@ -72,6 +72,23 @@ std::string picture_text(const TrackingStatus& tracking) {
                                        : std::string(words.meaning));
 }
 
+std::string watchdog_text(const SupervisionReport& watched) {
+  std::string text;
+  if (!watched.device.empty()) {
+    text = watched.device +
+           (watched.armed ? ", armed, " + std::to_string(watched.timeout_s) + " s" : ", not armed");
+    text += watched.trouble.empty() ? "" : ": " + watched.trouble;
+  }
+  if (watched.manager) {
+    text += (text.empty() ? "" : "; ") + std::string("the service manager's");
+    text += watched.manager_ms > 0 ? ", " + std::to_string(watched.manager_ms) + " ms" : ", none";
+    text +=
+        watched.manager_lost > 0 ? ", " + std::to_string(watched.manager_lost) + " not told" : "";
+  }
+  text += watched.stuck.empty() ? "" : "; stands still: " + watched.stuck;
+  return text.empty() ? "nobody watches over the box" : text;
+}
+
 std::string latency_text(const LatencyHistogram& histogram) {
   return "median " + std::to_string(histogram.quantile_us(0.5)) + " us, worst " +
          std::to_string(histogram.worst_us()) + " us";

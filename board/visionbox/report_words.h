@@ -28,6 +28,9 @@ namespace tubesight::board {
 /// What the picture shows of the lamp; empty where the box does not rule it.
 [[nodiscard]] std::string picture_text(const TrackingStatus& tracking);
 
+/// Who watches over the box.
+[[nodiscard]] std::string watchdog_text(const SupervisionReport& watched);
+
 [[nodiscard]] std::string latency_text(const LatencyHistogram& histogram);
 
 }  // namespace tubesight::board

@@ -78,6 +78,11 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                                      : "like every other thread"});
   rows.push_back({"memory", report.lock_wanted ? good_if(report.memory_locked) : Verdict::kAbsent,
                   report.memory_locked ? "locked" : "not locked"});
+  const SupervisionReport& watched = report.supervision;
+  const bool watches = watched.trouble.empty() && watched.stuck.empty();
+  rows.push_back({"watchdog",
+                  watched.device.empty() && !watched.manager ? Verdict::kAbsent : good_if(watches),
+                  watchdog_text(watched)});
   return rows;
 }
 

@@ -37,6 +37,7 @@ void TrackingThread::stop() {
 void TrackingThread::run() {
   touch_stack();
   use_signal_stack();
+  name_this_thread("tracking");
   if (settings_.priority > 0) {
     no_priority_ = schedule_in_real_time(settings_.priority);
     now_.scheduled = no_priority_.empty();
@@ -87,6 +88,7 @@ void TrackingThread::publish() {
   now_.lamp_automatic = loop_->output().lamp_automatic;
   now_.lamp_condition = loop_->output().lamp;
   latest_.publish(now_);
+  ++turns_;
   tell_robot();
 }
 

@@ -72,6 +72,9 @@ class TrackingThread {
   /// One turn, on the thread that calls: what start() repeats.
   void turn();
 
+  /// Turns made so far. Any thread.
+  [[nodiscard]] std::int64_t turns() const { return turns_; }
+
   /// What the last turn left; false before the first. Any thread.
   [[nodiscard]] bool status(TrackingStatus& status) const { return latest_.try_read(status); }
 
@@ -87,6 +90,7 @@ class TrackingThread {
   RealTimeSettings settings_;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
+  std::atomic<std::int64_t> turns_{0};
   std::string no_priority_;  ///< why; written before ready_
   Wakeup ready_;
   TrackingStatus now_;

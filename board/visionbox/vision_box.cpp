@@ -1,6 +1,7 @@
 #include "board/visionbox/vision_box.h"
 
 #include <random>
+#include <utility>
 
 #include "board/visionbox/camera_world.h"
 #include "board/visionbox/link_identity.h"
@@ -186,6 +187,12 @@ void VisionBox::look_after() {
                                                           tracking, monotonic_now()));
     }
   }
+}
+
+Beats VisionBox::beats() const {
+  const LampKeeper* const lamp = std::as_const(*world_).lamp();
+  return {tracking_.turns(), kept_link_ == nullptr ? -1 : kept_link_->rounds(),
+          lamp == nullptr ? -1 : lamp->rounds(), -1};
 }
 
 BoxReport VisionBox::report() const {

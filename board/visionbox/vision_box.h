@@ -13,6 +13,7 @@
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/life_signs.h"
 #include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
@@ -58,6 +59,9 @@ class VisionBox {
   void look_after();
 
   [[nodiscard]] BoxReport report() const;
+
+  /// How often each part has come round; the desk is the caller's. Any thread.
+  [[nodiscard]] Beats beats() const;
 
   /// Asks for a recording of what just was; its number, for record_answer(). Any thread.
   [[nodiscard]] std::uint32_t request_recording() { return recorder_->request(); }

@@ -40,6 +40,7 @@ class Exchange {
   std::atomic<std::uint32_t> losses{0};   ///< messages that came garbled or found no room
   std::atomic<bool> connected{false};     ///< there is a line
   std::atomic<bool> stopping{false};
+  std::atomic<std::int64_t> rounds{0};  ///< of the server's thread
 
   /// Wakes the server; never waits.
   void wake() const {

@@ -49,6 +49,13 @@ class ModbusRobotLink final : public hal::RobotLink {
     return exchange_.counters.try_read(counters);
   }
 
+  /// Times that the link's thread has come round. It waits for the masters alone: asking wakes it,
+  /// so that the next answer is another one, unless it stands still. Any thread.
+  [[nodiscard]] std::int64_t rounds() const {
+    exchange_.wake();
+    return exchange_.rounds.load();
+  }
+
   /// Whether there is a line or a port at present. Any thread.
   [[nodiscard]] bool connected() const { return exchange_.connected.load(); }
 

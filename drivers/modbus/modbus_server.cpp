@@ -54,6 +54,7 @@ void ModbusServer::run() {
       accept_master();
     }
     tell_loop();
+    ++exchange_->rounds;
   }
 }
 
