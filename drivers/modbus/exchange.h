@@ -36,6 +36,7 @@ class Exchange {
   core::SpscQueue<core::Reply, 64> replies;  ///< to the robot: two steps' full of them
   core::Snapshot<Shown> shown;
   core::Snapshot<LinkHealth> health;
+  core::Snapshot<LinkSelfTest> self_test;
   core::Snapshot<LinkCounters> counters;  ///< as they are, from the server
   std::atomic<std::uint32_t> losses{0};   ///< messages that came garbled or found no room
   std::atomic<bool> connected{false};     ///< there is a line

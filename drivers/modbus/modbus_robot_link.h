@@ -43,6 +43,9 @@ class ModbusRobotLink final : public hal::RobotLink {
   /// What the robot reads of the box's parts; any one thread, started or not.
   void set_health(const LinkHealth& health) { exchange_.health.publish(health); }
 
+  /// What the robot reads of the box's test of itself; any one thread, started or not.
+  void set_self_test(const LinkSelfTest& self_test) { exchange_.self_test.publish(self_test); }
+
   /// What has come over the line so far; false where it changes just now, or nothing came since
   /// the first start. Any thread.
   [[nodiscard]] bool counters(LinkCounters& counters) const {
