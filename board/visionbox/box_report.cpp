@@ -194,6 +194,11 @@ std::string status_text(const BoxReport& report) {
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
+  const std::string bad = bad_rows(self_test(report));
+  text += std::string("\nself-test ") + (!report.self_test_finished ? "not finished"
+                                         : bad.empty()              ? "nothing is bad"
+                                                                    : "bad: " + bad);
+  text += "\nboot      " + report.boots.words();
   text += "\nwatchdog  " + watchdog_text(report.supervision);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
@@ -231,6 +236,10 @@ std::string status_answer(const BoxReport& report) {
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
   add_supervision(line, report.supervision);
+  line.open("boot").add("known", report.boots.known()).add("number", report.boots.boot);
+  line.add("start", report.boots.start).add("trouble", report.boots.trouble).close();
+  line.open("self_test").add("finished", report.self_test_finished);
+  line.add("bad", bad_rows(self_test(report))).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
   return line.add("text", status_text(report)).finish();
 }

@@ -52,6 +52,9 @@ class KeptLink final : public hal::RobotLink {
   /// What the robot reads of the box's parts. Of the tracking thread.
   void set_health(const drivers::LinkHealth& health) { link_.set_health(health); }
 
+  /// What the robot reads of the box's test of itself. Of one thread.
+  void set_self_test(const drivers::LinkSelfTest& self_test) { link_.set_self_test(self_test); }
+
   /// Any thread.
   [[nodiscard]] LinkReport report() const;
 

@@ -53,9 +53,9 @@ void TrackingThread::turn() {
       kPatience * source_->fields_at_once() * source_->span();
   const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
                                   kShortest, kLongest);
-  if (!loop_->turn(timeout)) {
+  if (!judges_ || !loop_->turn(timeout)) {
     // The source has nothing to wait for: turns go on at the rate of its fields.
-    ++now_.source_errors;
+    now_.source_errors += judges_ ? 1 : 0;
     sleep_until(next_without_);
     loop_->turn_without_field();
   }

@@ -69,6 +69,10 @@ class TrackingThread {
   [[nodiscard]] std::string start();
   void stop();
 
+  /// Judges no field from now on: each turn is one without a field, at their rate, and nothing can
+  /// be started. Before start(), for a box that computes otherwise than it must.
+  void judge_nothing() { judges_ = false; }
+
   /// One turn, on the thread that calls: what start() repeats.
   void turn();
 
@@ -88,6 +92,7 @@ class TrackingThread {
   FieldSource* source_;
   Told told_;
   RealTimeSettings settings_;
+  bool judges_ = true;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
   std::atomic<std::int64_t> turns_{0};

@@ -37,8 +37,8 @@ class VisionBox {
   using Tell = std::function<void(const std::string&)>;
 
   /// `settings` were read by load_box_settings() and outlive the box; `tell` takes lines for a
-  /// person, on several threads.
-  VisionBox(const BoxSettings& settings, Tell tell);
+  /// person, on several threads. `origin` stands in each recording: who made it, and when.
+  VisionBox(const BoxSettings& settings, Tell tell, const std::string& origin = {});
   VisionBox(const VisionBox&) = delete;
   VisionBox& operator=(const VisionBox&) = delete;
   ~VisionBox() { stop(); }
@@ -49,6 +49,12 @@ class VisionBox {
 
   /// The same but for the tracking thread: the caller makes the turns of tracking() himself.
   [[nodiscard]] core::Result<void> start_without_tracking();
+
+  /// Judges no field, and so vouches for nothing, whatever comes. Before start().
+  void judge_nothing() { tracking_.judge_nothing(); }
+
+  /// What the robot reads of the box's test of itself. Of the thread that starts the box.
+  void tell_robot(const drivers::LinkSelfTest& self_test);
 
   /// Stops everything; the lamp goes dark.
   void stop();

@@ -163,6 +163,52 @@ TEST_F(Supervision, AStuckLinkStarvesTheManager) {
   EXPECT_TRUE(starves(milliseconds(1500)));
 }
 
+TEST_F(Supervision, EachWayToDieLeavesABoxThatWaitsAndIsCounted) {
+  // Kept in a folder of the test's, as systemd names one to a service.
+  std::filesystem::create_directory(box_.folder().path("state"));
+  const Variable state("STATE_DIRECTORY", box_.folder().path("state"));
+  box_.write_settings("script = true\n");
+  int start = 0;
+  for (const int signal : {SIGKILL, SIGABRT, SIGSEGV}) {
+    ++start;
+    ASSERT_TRUE(box_.start_and_wait()) << box_.said();
+    const std::string numbered = "boot 1, start " + std::to_string(start);
+    EXPECT_TRUE(has(box_.said(), "tubesightd: " + numbered + "\n")) << box_.said();
+    const std::string status = box_.wait_for("\"state\":\"tracking\"", kLong);
+    ASSERT_TRUE(has(status, "\"state\":\"tracking\"")) << status;
+    EXPECT_TRUE(has(status, R"("boot":{"known":true,"number":1,"start":)" + std::to_string(start)))
+        << status;
+    box_.signal(signal);
+    ASSERT_EQ(box_.wait_for_end(kLong), -1);
+  }
+
+  box_.write_settings("");  // nobody names tubes
+  ASSERT_TRUE(box_.start_and_wait()) << box_.said();
+  EXPECT_TRUE(has(box_.wait_for("\"tracking\":", kLong), "\"state\":\"waiting\""));
+  EXPECT_TRUE(has(box_.wait_for("\"judged_fields\":0", kLong), "\"judged_fields\":0"));
+}
+
+TEST_F(Supervision, TestsItselfAtTheStartAndSaysWhatIsBad) {
+  const Variable state("STATE_DIRECTORY", box_.folder().path("none"));
+  box_.write_settings(
+      "[realtime]\npriority = 0\nlock_memory = false\n"
+      "[record]\nfolder = \"kept\"\nmemory_mb = 24\n");
+  ASSERT_TRUE(box_.start_and_wait()) << box_.said();
+
+  // The others have their time, ten seconds, as two things stay bad.
+  const std::string status = box_.wait_for("\"self_test\":{\"finished\":true", kLong);
+
+  ASSERT_TRUE(has(status, R"("self_test":{"finished":true)")) << status;
+  EXPECT_TRUE(has(box_.said(), "self-test: bad: ")) << box_.said();
+  EXPECT_TRUE(has(box_.said(), "/boots: cannot be written: No such file or directory"))
+      << box_.said();
+  const std::string rows = box_.ask({"self-test"}).out;
+  EXPECT_TRUE(has(rows, "numbers   good   the golden recording is judged as on every machine"))
+      << rows;
+  EXPECT_TRUE(has(rows, "disk      bad    ")) << rows;
+  EXPECT_TRUE(has(rows, "boots     bad    boots are not numbered: ")) << rows;
+}
+
 TEST_F(Supervision, GoesOnWhenNobodyListensAnyMoreAndWithoutAHardwareThatIsNoWatchdog) {
   box_.write_settings("[watchdog]\ndevice = \"/dev/null\"\n");
   ASSERT_TRUE(box_.start_and_wait()) << box_.said();
