@@ -192,7 +192,7 @@ TEST_F(Supervision, TestsItselfAtTheStartAndSaysWhatIsBad) {
   const Variable state("STATE_DIRECTORY", box_.folder().path("none"));
   box_.write_settings(
       "[realtime]\npriority = 0\nlock_memory = false\n"
-      "[record]\nfolder = \"kept\"\nmemory_mb = 24\n");
+      "[record]\nfolder = \"kept\"\nmemory_mb = 64\n");
   ASSERT_TRUE(box_.start_and_wait()) << box_.said();
 
   // The others have their time, ten seconds, as two things stay bad.
