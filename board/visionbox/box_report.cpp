@@ -6,6 +6,7 @@
 
 #include "board/box/version.h"
 #include "board/visionbox/control_protocol.h"
+#include "board/visionbox/report_words.h"
 #include "core/base/names.h"
 #include "core/base/words.h"
 #include "drivers/control/json_line.h"
@@ -16,16 +17,6 @@ namespace {
 
 using drivers::JsonLine;
 
-std::string_view name_of(SourceState state) {
-  switch (state) {
-    case SourceState::kOpening: return "opening";
-    case SourceState::kPlaying: return "playing";
-    case SourceState::kEnded: return "ended";
-    case SourceState::kFailed: return "failed";
-  }
-  return "";
-}
-
 std::string decimal(std::int64_t numerator, std::int64_t denominator, std::int32_t digits) {
   std::string text;
   drivers::append_decimal(text, numerator, denominator, digits);
@@ -34,12 +25,6 @@ std::string decimal(std::int64_t numerator, std::int64_t denominator, std::int32
 
 /// 1/256 um, as millimetres.
 std::string mm_text(std::int64_t um_q8) { return decimal(um_q8, 256'000, 4); }
-
-std::string rate_text(double per_s) {
-  std::string text;
-  drivers::print(text, "%.1f", per_s);
-  return text;
-}
 
 std::string tube_text(core::TubeAddress tube) {
   return std::to_string(tube.row) + "," + std::to_string(tube.column);
@@ -104,24 +89,6 @@ void add_counters(JsonLine& line, const BoxCounters& counters) {
   line.close();
 }
 
-bool there_is_link(const BoxReport& report) { return report.link_kind != "none"; }
-
-/// Requests that came damaged, or in pieces, or found no room.
-std::uint32_t link_errors(const drivers::LinkCounters& counters) {
-  return counters.crc_errors + counters.cut_frames + counters.dropped_events;
-}
-
-std::string link_text(const BoxReport& report) {
-  std::string text(report.link_kind);
-  if (there_is_link(report)) {
-    const drivers::LinkCounters& counters = report.link.counters;
-    text += report.link.open ? ", open, " : ", not open, ";
-    text += std::to_string(counters.requests) + " requests, " +
-            std::to_string(link_errors(counters)) + " errors";
-  }
-  return text;
-}
-
 void add_link(JsonLine& line, const BoxReport& report) {
   line.open("link").add("kind", report.link_kind);
   if (there_is_link(report)) {
@@ -144,16 +111,6 @@ void add_link(JsonLine& line, const BoxReport& report) {
   line.close();
 }
 
-/// Empty: none are written.
-std::string pairs_text(const PairsReport& pairs) {
-  if (pairs.file.empty()) {
-    return {};
-  }
-  std::string text = pairs.file + ", " + std::to_string(pairs.written) + " written";
-  text += pairs.lost > 0 ? ", " + std::to_string(pairs.lost) + " lost" : "";
-  return text + (pairs.trouble.empty() ? "" : ": " + pairs.trouble);
-}
-
 void add_pairs(JsonLine& line, const PairsReport& pairs) {
   line.open("pairs").add("there", !pairs.file.empty());
   if (!pairs.file.empty()) {
@@ -162,8 +119,6 @@ void add_pairs(JsonLine& line, const PairsReport& pairs) {
   }
   line.close();
 }
-
-bool there_is_recorder(const BoxReport& report) { return !report.recorder.folder.empty(); }
 
 void add_recorder(JsonLine& line, const BoxReport& report) {
   line.open("recorder").add("there", there_is_recorder(report));
@@ -186,18 +141,17 @@ void add_recorder(JsonLine& line, const BoxReport& report) {
   line.close();
 }
 
-std::string recorder_text(const BoxReport& report) {
-  if (!there_is_recorder(report)) {
-    return "nothing is recorded";
+void add_supervision(JsonLine& line, const SupervisionReport& watched) {
+  line.open("supervision").add("stuck", watched.stuck);
+  line.open("watchdog").add("there", !watched.device.empty());
+  if (!watched.device.empty()) {
+    line.add("device", watched.device).add("armed", watched.armed);
+    line.add("timeout_s", watched.timeout_s).add("trouble", watched.trouble);
   }
-  const RecorderReport& recorder = report.recorder;
-  const RecorderCounters& counters = recorder.counters;
-  std::string text = recorder.folder + ", " + std::to_string(counters.written) + " written";
-  if (counters.failed + counters.refused > 0) {
-    text += ", " + std::to_string(counters.failed) + " failed, " +
-            std::to_string(counters.refused) + " refused";
-  }
-  return text + (recorder.trouble.empty() ? "" : ": " + recorder.trouble);
+  line.close();
+  line.open("manager").add("there", watched.manager).add("feed_within_ms", watched.manager_ms);
+  line.add("lost", watched.manager_lost).close();
+  line.close();
 }
 
 std::string sighting_text(const core::Sighting& sighting) {
@@ -210,21 +164,6 @@ std::string sighting_text(const core::Sighting& sighting) {
             " mm off" + (sighting.aligned ? ", vouched for" : ", not vouched for");
   }
   return text;
-}
-
-/// What the picture shows of the lamp; empty where the box does not rule it.
-std::string picture_text(const TrackingStatus& tracking) {
-  if (!tracking.lamp_ruled) {
-    return {};
-  }
-  const core::Words words = core::lighting::words_of(tracking.lamp_condition);
-  return "; " + (words.meaning.empty() ? "nothing shows yet that the picture follows it"
-                                       : std::string(words.meaning));
-}
-
-std::string latency_text(const LatencyHistogram& histogram) {
-  return "median " + std::to_string(histogram.quantile_us(0.5)) + " us, worst " +
-         std::to_string(histogram.worst_us()) + " us";
 }
 
 std::string status_text(const BoxReport& report) {
@@ -255,27 +194,15 @@ std::string status_text(const BoxReport& report) {
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
+  const std::string bad = bad_rows(self_test(report));
+  text += std::string("\nself-test ") + (!report.self_test_finished ? "not finished"
+                                         : bad.empty()              ? "nothing is bad"
+                                                                    : "bad: " + bad);
+  text += "\nboot      " + report.boots.words();
+  text += "\nwatchdog  " + watchdog_text(report.supervision);
   text += std::string("\nrealtime  ") + (tracking.scheduled ? "SCHED_FIFO" : "ordinary priority") +
           (report.memory_locked ? ", memory locked" : ", memory not locked");
   return text;
-}
-
-/// Room that the next recording finds, by which older ones go.
-SelfTestRow disk_row(const BoxReport& report) {
-  using Verdict = SelfTestRow::Verdict;
-  if (!there_is_recorder(report)) {
-    return {"disk", Verdict::kAbsent, recorder_text(report)};
-  }
-  const RecorderReport& recorder = report.recorder;
-  const bool room = recorder.room_mb >= recorder.needed_mb;
-  std::string words =
-      recorder_text(report) + ", " + std::to_string(recorder.room_mb) + " MB of room";
-  if (recorder.open && !room) {
-    words += ", a recording needs " + std::to_string(recorder.needed_mb);
-  }
-  return {"disk",
-          recorder.open && recorder.trouble.empty() && room ? Verdict::kGood : Verdict::kBad,
-          std::move(words)};
 }
 
 }  // namespace
@@ -308,77 +235,13 @@ std::string status_answer(const BoxReport& report) {
   line.add("known", report.zones_known).close();
   line.open("realtime").add("scheduled", report.tracking.scheduled);
   line.add("priority", report.priority).add("memory_locked", report.memory_locked).close();
+  add_supervision(line, report.supervision);
+  line.open("boot").add("known", report.boots.known()).add("number", report.boots.boot);
+  line.add("start", report.boots.start).add("trouble", report.boots.trouble).close();
+  line.open("self_test").add("finished", report.self_test_finished);
+  line.add("bad", bad_rows(self_test(report))).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
   return line.add("text", status_text(report)).finish();
-}
-
-std::vector<SelfTestRow> self_test(const BoxReport& report) {
-  using Verdict = SelfTestRow::Verdict;
-  const auto good_if = [](bool good) { return good ? Verdict::kGood : Verdict::kBad; };
-  const TrackingStatus& tracking = report.tracking;
-  std::vector<SelfTestRow> rows;
-  rows.push_back({"source", good_if(report.source == SourceState::kPlaying),
-                  std::string(report.source_kind) + ", " + std::string(name_of(report.source))});
-  if (report.camera) {
-    rows.push_back({"camera", good_if(report.camera->well), report.camera->words});
-    // No fault: the box cannot look for what nobody has told it.
-    const bool bound = report.camera->doubt.empty();
-    rows.push_back({"identity", bound ? Verdict::kGood : Verdict::kAbsent,
-                    bound ? "the calibration names this camera" : report.camera->doubt});
-  }
-  const double nominal =
-      report.span.count() > 0 ? 1.0 / std::chrono::duration<double>(report.span).count() : 0.0;
-  rows.push_back(
-      {"rate", good_if(report.fields_per_s > 0.9 * nominal),
-       rate_text(report.fields_per_s) + " fields a second, expected " + rate_text(nominal)});
-  const std::int64_t median_us = tracking.grab_to_sighting.quantile_us(0.5);
-  rows.push_back({"time",
-                  good_if(tracking.grab_to_sighting.count() > 0 &&
-                          static_cast<double>(median_us) < 1000.0 * report.deadline_ms),
-                  latency_text(tracking.grab_to_sighting) + ", " + std::to_string(tracking.late) +
-                      " fields later than " + rate_text(report.deadline_ms) + " ms"});
-  rows.push_back({"lamp",
-                  tracking.lamp ? good_if(tracking.counters.dimmer_errors == 0 &&
-                                          (!report.lamp || report.lamp->open) &&
-                                          !core::lighting::is_fault(tracking.lamp_condition))
-                                : Verdict::kAbsent,
-                  tracking.lamp ? std::to_string(tracking.lamp_permille) + " permille, " +
-                                      std::to_string(tracking.counters.dimmer_errors) + " errors" +
-                                      picture_text(tracking)
-                                : "nobody dims it"});
-  rows.push_back({"link", there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
-                  link_text(report)});
-  rows.push_back(disk_row(report));
-  if (!report.pairs.file.empty()) {
-    rows.push_back({"pairs", good_if(report.pairs.trouble.empty()), pairs_text(report.pairs)});
-  }
-  rows.push_back({"priority", report.priority == 0 ? Verdict::kAbsent : good_if(tracking.scheduled),
-                  tracking.scheduled ? "SCHED_FIFO " + std::to_string(report.priority)
-                                     : "like every other thread"});
-  rows.push_back({"memory", report.lock_wanted ? good_if(report.memory_locked) : Verdict::kAbsent,
-                  report.memory_locked ? "locked" : "not locked"});
-  return rows;
-}
-
-std::string self_test_answer(const BoxReport& report) {
-  using Verdict = SelfTestRow::Verdict;
-  const std::vector<SelfTestRow> rows = self_test(report);
-  const bool good = std::none_of(rows.begin(), rows.end(), [](const SelfTestRow& row) {
-    return row.verdict == Verdict::kBad;
-  });
-  JsonLine line = begin_answer("self-test", good);
-  std::string text;
-  line.open("rows");
-  for (const SelfTestRow& row : rows) {
-    const std::string_view verdict = row.verdict == Verdict::kGood  ? "good"
-                                     : row.verdict == Verdict::kBad ? "bad"
-                                                                    : "absent";
-    line.open(row.what).add("verdict", verdict).add("words", row.words).close();
-    drivers::print(text, "%s%-9.*s %-6.*s %s", text.empty() ? "" : "\n",
-                   static_cast<int>(row.what.size()), row.what.data(),
-                   static_cast<int>(verdict.size()), verdict.data(), row.words.c_str());
-  }
-  return line.close().add("text", text).finish();
 }
 
 }  // namespace tubesight::board

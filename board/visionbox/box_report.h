@@ -6,13 +6,17 @@
 #include <string_view>
 #include <vector>
 
+#include "board/visionbox/boot_count.h"
 #include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
+#include "board/visionbox/golden_recording.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/recording_writer.h"
+#include "board/visionbox/supervisor.h"
 #include "board/visionbox/tracking_thread.h"
+#include "drivers/modbus/register_codes.h"
 
 namespace tubesight::board {
 
@@ -43,6 +47,11 @@ struct BoxReport {
   bool lock_wanted = false;
   double deadline_ms = 0.0;
   std::int64_t poses_passed_over = 0;
+  SupervisionReport supervision;
+  bool pattern_wanted = false;  ///< the picture is to follow the lamp's pattern
+  GoldenResult golden;
+  bool self_test_finished = false;  ///< each part has had its time since the start
+  BootCount boots;
 };
 
 /// The answer to `status`: one JSON object in a line, with the same for a person under `text`.
@@ -51,11 +60,15 @@ struct BoxReport {
 /// One thing that the self-test looks at.
 struct SelfTestRow {
   enum class Verdict : std::uint8_t { kGood, kBad, kAbsent };
+  drivers::SelfTestBit bit = drivers::SelfTestBit::kNumbers;  ///< that the robot reads
   std::string_view what;
   Verdict verdict = Verdict::kGood;
   std::string words;
 };
 [[nodiscard]] std::vector<SelfTestRow> self_test(const BoxReport& report);
+
+/// The names of those that are bad, "disk, lamp"; empty: none is.
+[[nodiscard]] std::string bad_rows(const std::vector<SelfTestRow>& rows);
 
 /// The answer to `self-test`; `ok` is false where one is bad.
 [[nodiscard]] std::string self_test_answer(const BoxReport& report);

@@ -26,8 +26,8 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 8> kBoxTables = {"source", "control", "realtime", "link",
-                                                        "record", "pairs",   "zones",    "lamp"};
+constexpr std::array<std::string_view, 9> kBoxTables = {
+    "source", "control", "realtime", "link", "record", "pairs", "zones", "lamp", "watchdog"};
 constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -178,6 +178,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.pairs = {};
   box.zones = {};
   box.lamp = {};
+  box.watchdog = {};
   SourceLight light = SourceLight::kUnknown;
   drivers::read_table(document, "source", true, [&](TableReader& table) {
     read_source(document, table, box.source);
@@ -197,6 +198,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "zones", false, [&](TableReader& table) {
     read_zones(document, table, box.link.kind != LinkKind::kNone, box.zones);
   });
+  drivers::read_table(document, "watchdog", false,
+                      [&](TableReader& table) { read_watchdog(table, box.watchdog); });
   std::size_t told = 0;
   drivers::read_table(document, "lamp", false, [&](TableReader& table) {
     read_lamp(table, {light, box.link.kind != LinkKind::kNone, exposure_ms(box.source)}, box.lamp);

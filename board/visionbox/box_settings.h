@@ -9,6 +9,7 @@
 #include "board/visionbox/pairs_settings.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
+#include "board/visionbox/watchdog_settings.h"
 #include "board/visionbox/zones_settings.h"
 #include "core/base/result.h"
 #include "drivers/aravis/aravis_settings.h"
@@ -54,6 +55,7 @@ struct BoxSettings {
   PairsSettings pairs;
   ZonesSettings zones;
   LampSettings lamp;
+  WatchdogSettings watchdog;
   bool lamp_sound = false;  ///< which lamp it is, is known: it can be made dark
   drivers::SessionFile session;
   drivers::ScenarioFile scenario;  ///< of a simulation, which has the session in it

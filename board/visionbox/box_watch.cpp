@@ -20,6 +20,14 @@ const char* words(SourceState state) {
   return "";
 }
 
+std::string tracking_words(const core::Sighting& sighting) {
+  std::string text = "tracking: " + std::string(core::name_of(sighting.state));
+  if (sighting.reason != core::Reason::kNone) {
+    text += ": " + std::string(core::explain(sighting.reason));
+  }
+  return text;
+}
+
 }  // namespace
 
 void BoxWatch::look(const BoxReport& report) {
@@ -27,18 +35,17 @@ void BoxWatch::look(const BoxReport& report) {
     source_ = report.source;
     tell_(words(report.source));
   }
+  headline_ = words(report.source);
   if (!report.turned) {
     return;
   }
   const core::Sighting& sighting = report.tracking.sighting;
+  const std::string tracking = tracking_words(sighting);
+  headline_ = tracking + "; " + headline_;
   if (sighting.state != state_ || sighting.reason != reason_) {
     state_ = sighting.state;
     reason_ = sighting.reason;
-    std::string text = "tracking: " + std::string(core::name_of(state_));
-    if (reason_ != core::Reason::kNone) {
-      text += ": " + std::string(core::explain(reason_));
-    }
-    tell_(text);
+    tell_(tracking);
   }
   const BoxCounters& counters = report.tracking.counters;
   if (report.up - counted_at_ >= kCountEvery) {

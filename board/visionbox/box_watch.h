@@ -16,11 +16,15 @@ class BoxWatch {
   /// Takes the present state; `report.fields_per_s` is not looked at.
   void look(const BoxReport& report);
 
+  /// How the box is doing, in a line that changes when that does; empty before the first look.
+  [[nodiscard]] const std::string& headline() const { return headline_; }
+
   /// Fields that came in a second, over the last second or more; 0 before.
   [[nodiscard]] double fields_per_s() const { return fields_per_s_; }
 
  private:
   std::function<void(const std::string&)> tell_;
+  std::string headline_;
   double fields_per_s_ = 0.0;
   MonotonicTime counted_at_{0};
   std::int64_t counted_ = 0;

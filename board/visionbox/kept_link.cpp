@@ -26,8 +26,13 @@ std::string name_of(const drivers::ModbusSettings& settings) {
   return name;
 }
 
-void begin_before_others() {
+void begin_like_others() {
   use_signal_stack();
+  name_this_thread("link");
+}
+
+void begin_before_others() {
+  begin_like_others();
   // Who may not, may not have the tracking thread in real time either, and that is told.
   static_cast<void>(schedule_before_others());
 }
@@ -37,7 +42,7 @@ void begin_before_others() {
 KeptLink::KeptLink(const drivers::ModbusSettings& settings, const drivers::LinkIdentity& identity,
                    const hal::Clock& clock, Rank rank, Tell tell)
     : link_(settings, identity, clock,
-            rank == Rank::kBeforeOthers ? begin_before_others : use_signal_stack),
+            rank == Rank::kBeforeOthers ? begin_before_others : begin_like_others),
       where_(name_of(settings)),
       tell_(std::move(tell)) {}
 

@@ -52,8 +52,15 @@ class KeptLink final : public hal::RobotLink {
   /// What the robot reads of the box's parts. Of the tracking thread.
   void set_health(const drivers::LinkHealth& health) { link_.set_health(health); }
 
+  /// What the robot reads of the box's test of itself. Of one thread.
+  void set_self_test(const drivers::LinkSelfTest& self_test) { link_.set_self_test(self_test); }
+
   /// Any thread.
   [[nodiscard]] LinkReport report() const;
+
+  /// Times that the link's thread has come round, which this makes it do once more; -1: it could
+  /// not be opened yet, and there is none. Any thread.
+  [[nodiscard]] std::int64_t rounds() const { return open_ ? link_.rounds() : -1; }
 
  private:
   void try_to_open(MonotonicTime now);

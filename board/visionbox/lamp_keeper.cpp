@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "board/visionbox/real_time.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -29,7 +31,10 @@ Result<void> LampKeeper::start() {
   wanted_permille_ = 0;
   next_try_ = MonotonicTime{0};
   told_.clear();
-  thread_ = std::thread([this] { keep(); });
+  thread_ = std::thread([this] {
+    name_this_thread("lamp");
+    keep();
+  });
   return {};
 }
 
@@ -123,6 +128,7 @@ void LampKeeper::shine(std::int32_t permille, MonotonicTime now) {
 void LampKeeper::keep() {
   MonotonicTime longest_end{0};
   while (true) {
+    ++rounds_;
     const MonotonicTime now = monotonic_now();
     const std::int32_t wanted = std::min(wanted_permille_.load(), most_permille_.load());
     if (opened()) {

@@ -65,6 +65,10 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   /// Any thread.
   [[nodiscard]] LampReport report() const;
 
+  /// Times that the keeper's thread has come round; it does ten times a second, whatever happens.
+  /// Any thread.
+  [[nodiscard]] std::int64_t rounds() const { return rounds_; }
+
  private:
   /// Changes that are remembered: a soft start's, one each 10 ms for its longest time of a second
   /// that a field may be old.
@@ -103,6 +107,7 @@ class LampKeeper final : public hal::Dimmer, public hal::LampHistory {
   std::atomic<bool> asked_{false};  ///< a level was wanted since the start
   std::atomic<std::int32_t> shining_permille_{0};
   std::atomic<std::int64_t> failures_{0};
+  std::atomic<std::int64_t> rounds_{0};
   // Of the keeper's thread.
   History history_;
   core::Snapshot<History> latest_;

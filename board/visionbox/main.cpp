@@ -1,7 +1,6 @@
 // tubesightd: the vision box as a service.
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -13,15 +12,15 @@
 #include <unistd.h>
 
 #include "board/box/version.h"
+#include "board/visionbox/boot_count.h"
+#include "board/visionbox/box_service.h"
 #include "board/visionbox/box_settings.h"
-#include "board/visionbox/box_watch.h"
-#include "board/visionbox/control_desk.h"
+#include "board/visionbox/golden_recording.h"
 #include "board/visionbox/lamp_device.h"
 #include "board/visionbox/log.h"
 #include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/record_settings.h"
-#include "board/visionbox/vision_box.h"
-#include "drivers/control/control_server.h"
+#include "board/visionbox/service_manager.h"
 
 namespace tubesight::board {
 namespace {
@@ -52,51 +51,23 @@ class EndSignals {
   int fd_ = -1;
 };
 
-/// Serves until a signal ends it.
-void serve(VisionBox& box, ControlDesk& desk, drivers::ControlServer& server, BoxWatch& watch,
-           const EndSignals& signals) {
-  constexpr std::chrono::milliseconds kIdle{100};
-  constexpr std::chrono::milliseconds kBusy{4};  // an answer comes with the next field
-  bool ended = false;
-  while (!ended) {
-    ended = server.serve(desk.busy() ? kBusy : kIdle, signals.fd());
-    desk.serve_replies(server, monotonic_now());
-    box.look_after();
-    watch.look(box.report());
-  }
-}
-
 int run(const BoxSettings& settings) {
   const EndSignals signals;
   Log log;
-  const auto tell = [&log](const std::string& line) { log.say(line); };
   if (const std::string why = too_much_memory(settings.record, machine_memory_mb()); !why.empty()) {
     log.say(why);
     return kWrongInput;
   }
-  const auto box = std::make_unique<VisionBox>(settings, tell);
-  BoxWatch watch(tell);
-  const auto report = [&] {
-    BoxReport now = box->report();
-    now.fields_per_s = watch.fields_per_s();
-    return now;
-  };
-  ControlDesk desk(report, *box, settings.told().start);
-  drivers::ControlServer server(desk);
-  if (!settings.control_socket.empty() && !server.start(settings.control_socket)) {
-    log.say(server.message());
+  const ServiceEnvironment environment = service_environment();
+  const auto service = std::make_unique<BoxService>(
+      settings,
+      BoxService::Found{environment, count_boot(environment.state_folder), run_golden_recording()},
+      log);
+  if (!service->start()) {
     return kFailed;
   }
-  if (!box->start()) {
-    log.say("cannot be started");
-    return kFailed;
-  }
-  log.say("started, " + std::string(program_version()));
-  serve(*box, desk, server, watch, signals);
-  box->stop();
-  desk.serve_replies(server, monotonic_now());  // what stop() wrote, somebody may wait for
-  server.stop();
-  log.say("stopped");
+  service->serve(signals.fd());
+  service->stop();
   return kDone;
 }
 
@@ -106,7 +77,7 @@ int darken(const BoxSettings& settings) {
   const auto lamp = make_lamp(settings.lamp);
   const std::string why = lamp == nullptr ? std::string() : make_dark(*lamp);
   if (!why.empty()) {
-    std::fprintf(stderr, "tubesightd: %s\n", why.c_str());
+    Log().say(why);
   }
   return why.empty() ? kDone : kFailed;
 }
@@ -136,8 +107,9 @@ int run_program(int argc, const char* const* argv) {
   const auto settings = std::make_unique<BoxSettings>();
   drivers::Messages messages;
   const bool good = static_cast<bool>(load_box_settings(path, *settings, messages));
+  const char* const level = stderr_is_journal() ? "<3>" : "";
   for (const std::string& message : messages) {
-    std::fprintf(stderr, "%s\n", message.c_str());
+    std::fprintf(stderr, "%s%s\n", level, message.c_str());
   }
   if (!good) {
     // A mistake elsewhere is no reason to leave a lamp lit.

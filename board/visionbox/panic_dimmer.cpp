@@ -13,6 +13,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include "board/visionbox/log.h"
 #include "core/base/assert.h"
 
 namespace tubesight::board {
@@ -25,6 +26,8 @@ using core::Unexpected;
 // A signal's handler has no object to ask.
 constinit std::atomic<hal::Dimmer*> g_lamp{nullptr};
 constinit std::atomic<bool> g_dying{false};
+/// What stands before a line that the journal is to take for a critical one.
+constinit std::atomic<const char*> g_level{""};
 static_assert(std::atomic<hal::Dimmer*>::is_always_lock_free);
 
 struct Deadly {
@@ -67,6 +70,9 @@ void say(std::initializer_list<const char*> parts) {
   constexpr std::size_t kMostParts = 8;
   std::array<iovec, kMostParts> pieces{};
   std::size_t count = 0;
+  const char* const level = g_level;
+  // writev() only reads. NOLINTNEXTLINE(*-const-cast)
+  pieces[count++] = {const_cast<char*>(level), std::strlen(level)};
   for (const char* part : parts) {
     // writev() only reads. NOLINTNEXTLINE(*-const-cast)
     pieces[count++] = {const_cast<char*>(part), std::strlen(part)};
@@ -162,6 +168,7 @@ void PanicDimmer::darken() {
 void use_signal_stack() { thread_local const SignalStack stack; }
 
 void install_panic_hooks() {
+  g_level = stderr_is_journal() ? "<2>" : "";
   use_signal_stack();
   core::set_panic_hook(on_failed_assertion);
   std::set_terminate(on_terminate);

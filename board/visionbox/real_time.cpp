@@ -49,6 +49,10 @@ std::string schedule_before_others() {
   return status == 0 ? std::string() : std::strerror(errno);
 }
 
+void name_this_thread(const char* name) {
+  static_cast<void>(pthread_setname_np(pthread_self(), name));
+}
+
 [[gnu::noinline]] void touch_stack() {
   std::array<unsigned char, kStackTouched> stack;
   volatile unsigned char* const bytes = stack.data();

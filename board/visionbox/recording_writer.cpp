@@ -20,14 +20,20 @@ std::int64_t utc_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(now).count();
 }
 
+/// As settings are read, with a comment above.
+std::string session_text(const core::SessionSettings& session, const std::string& origin) {
+  return (origin.empty() ? "" : "# " + origin + "\n") + drivers::session_text(session);
+}
+
 }  // namespace
 
 RecordingWriter::RecordingWriter(EventRecorder& recorder, const RecordSettings& settings,
-                                 const core::SessionSettings& session, Tell tell)
+                                 const core::SessionSettings& session, const std::string& origin,
+                                 Tell tell)
     : recorder_(&recorder),
       settings_(settings),
       tell_(std::move(tell)),
-      store_(settings.folder, settings.disk_mb, drivers::session_text(session), utc_s) {}
+      store_(settings.folder, settings.disk_mb, session_text(session, origin), utc_s) {}
 
 void RecordingWriter::start() {
   stopping_ = false;

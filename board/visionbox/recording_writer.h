@@ -46,10 +46,11 @@ class RecordingWriter {
  public:
   using Tell = std::function<void(const std::string&)>;
 
-  /// `recorder` outlives the writer. `session` is what the box tracks by; `tell` takes lines for a
-  /// person, on the writer's thread and that of start().
+  /// `recorder` outlives the writer. `session` is what the box tracks by; `origin`, one line,
+  /// stands above it in each recording; `tell` takes lines for a person, on the writer's thread and
+  /// that of start().
   RecordingWriter(EventRecorder& recorder, const RecordSettings& settings,
-                  const core::SessionSettings& session, Tell tell);
+                  const core::SessionSettings& session, const std::string& origin, Tell tell);
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
   ~RecordingWriter() { stop(); }

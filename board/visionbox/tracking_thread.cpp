@@ -37,6 +37,7 @@ void TrackingThread::stop() {
 void TrackingThread::run() {
   touch_stack();
   use_signal_stack();
+  name_this_thread("tracking");
   if (settings_.priority > 0) {
     no_priority_ = schedule_in_real_time(settings_.priority);
     now_.scheduled = no_priority_.empty();
@@ -52,9 +53,9 @@ void TrackingThread::turn() {
       kPatience * source_->fields_at_once() * source_->span();
   const auto timeout = std::clamp(std::chrono::duration_cast<std::chrono::milliseconds>(patience),
                                   kShortest, kLongest);
-  if (!loop_->turn(timeout)) {
+  if (!judges_ || !loop_->turn(timeout)) {
     // The source has nothing to wait for: turns go on at the rate of its fields.
-    ++now_.source_errors;
+    now_.source_errors += judges_ ? 1 : 0;
     sleep_until(next_without_);
     loop_->turn_without_field();
   }
@@ -87,6 +88,7 @@ void TrackingThread::publish() {
   now_.lamp_automatic = loop_->output().lamp_automatic;
   now_.lamp_condition = loop_->output().lamp;
   latest_.publish(now_);
+  ++turns_;
   tell_robot();
 }
 

@@ -69,8 +69,15 @@ class TrackingThread {
   [[nodiscard]] std::string start();
   void stop();
 
+  /// Judges no field from now on: each turn is one without a field, at their rate, and nothing can
+  /// be started. Before start(), for a box that computes otherwise than it must.
+  void judge_nothing() { judges_ = false; }
+
   /// One turn, on the thread that calls: what start() repeats.
   void turn();
+
+  /// Turns made so far. Any thread.
+  [[nodiscard]] std::int64_t turns() const { return turns_; }
 
   /// What the last turn left; false before the first. Any thread.
   [[nodiscard]] bool status(TrackingStatus& status) const { return latest_.try_read(status); }
@@ -85,8 +92,10 @@ class TrackingThread {
   FieldSource* source_;
   Told told_;
   RealTimeSettings settings_;
+  bool judges_ = true;
   std::thread thread_;
   std::atomic<bool> stopping_{false};
+  std::atomic<std::int64_t> turns_{0};
   std::string no_priority_;  ///< why; written before ready_
   Wakeup ready_;
   TrackingStatus now_;

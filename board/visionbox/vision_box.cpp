@@ -1,6 +1,7 @@
 #include "board/visionbox/vision_box.h"
 
 #include <random>
+#include <utility>
 
 #include "board/visionbox/camera_world.h"
 #include "board/visionbox/link_identity.h"
@@ -61,11 +62,13 @@ core::lighting::LampPolicy lamp_policy(const LampSettings& lamp) {
 }
 
 std::unique_ptr<RecordingWriter> make_writer(EventRecorder* recorder, const BoxSettings& settings,
+                                             const std::string& origin,
                                              const VisionBox::Tell& tell) {
   if (recorder == nullptr) {
     return nullptr;
   }
-  return std::make_unique<RecordingWriter>(*recorder, settings.record, settings.told(), tell);
+  return std::make_unique<RecordingWriter>(*recorder, settings.record, settings.told(), origin,
+                                           tell);
 }
 
 /// Null: no pairs are written.
@@ -77,7 +80,7 @@ std::unique_ptr<PairsWriter> make_pairs_writer(PairDesk& desk, const BoxSettings
 
 }  // namespace
 
-VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
+VisionBox::VisionBox(const BoxSettings& settings, Tell tell, const std::string& origin)
     : settings_(&settings),
       tell_(std::move(tell)),
       world_(make_world(settings, socket_station_, tell_)),
@@ -90,7 +93,7 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell)
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       pairs_writer_(make_pairs_writer(pair_desk_, settings, tell_)),
       recorder_(make_recorder(settings)),
-      writer_(make_writer(recorder_.get(), settings, tell_)),
+      writer_(make_writer(recorder_.get(), settings, origin, tell_)),
       loop_(session_, ports(),
             {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp),
              pairs_writer_ == nullptr ? nullptr : &pair_desk_}),
@@ -188,6 +191,18 @@ void VisionBox::look_after() {
   }
 }
 
+Beats VisionBox::beats() const {
+  const LampKeeper* const lamp = std::as_const(*world_).lamp();
+  return {tracking_.turns(), kept_link_ == nullptr ? -1 : kept_link_->rounds(),
+          lamp == nullptr ? -1 : lamp->rounds(), -1};
+}
+
+void VisionBox::tell_robot(const drivers::LinkSelfTest& self_test) {
+  if (kept_link_ != nullptr) {
+    kept_link_->set_self_test(self_test);
+  }
+}
+
 BoxReport VisionBox::report() const {
   BoxReport report;
   report.turned = tracking_.status(report.tracking);
@@ -210,6 +225,7 @@ BoxReport VisionBox::report() const {
     report.zones = zones_->places();
     report.zones_known = zones_->ready();
   }
+  report.pattern_wanted = settings_->lamp.pattern;
   report.priority = settings_->real_time.priority;
   report.lock_wanted = settings_->real_time.lock_memory;
   report.memory_locked = memory_locked_;

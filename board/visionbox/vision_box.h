@@ -13,6 +13,7 @@
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/kept_link.h"
+#include "board/visionbox/life_signs.h"
 #include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
@@ -36,8 +37,8 @@ class VisionBox {
   using Tell = std::function<void(const std::string&)>;
 
   /// `settings` were read by load_box_settings() and outlive the box; `tell` takes lines for a
-  /// person, on several threads.
-  VisionBox(const BoxSettings& settings, Tell tell);
+  /// person, on several threads. `origin` stands in each recording: who made it, and when.
+  VisionBox(const BoxSettings& settings, Tell tell, const std::string& origin = {});
   VisionBox(const VisionBox&) = delete;
   VisionBox& operator=(const VisionBox&) = delete;
   ~VisionBox() { stop(); }
@@ -49,6 +50,12 @@ class VisionBox {
   /// The same but for the tracking thread: the caller makes the turns of tracking() himself.
   [[nodiscard]] core::Result<void> start_without_tracking();
 
+  /// Judges no field, and so vouches for nothing, whatever comes. Before start().
+  void judge_nothing() { tracking_.judge_nothing(); }
+
+  /// What the robot reads of the box's test of itself. Of the thread that starts the box.
+  void tell_robot(const drivers::LinkSelfTest& self_test);
+
   /// Stops everything; the lamp goes dark.
   void stop();
 
@@ -58,6 +65,9 @@ class VisionBox {
   void look_after();
 
   [[nodiscard]] BoxReport report() const;
+
+  /// How often each part has come round; the desk is the caller's. Any thread.
+  [[nodiscard]] Beats beats() const;
 
   /// Asks for a recording of what just was; its number, for record_answer(). Any thread.
   [[nodiscard]] std::uint32_t request_recording() { return recorder_->request(); }

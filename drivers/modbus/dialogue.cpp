@@ -173,6 +173,8 @@ void Dialogue::read(std::int32_t first, FieldTime now, std::span<std::uint16_t> 
     encode_verdict(now);
   } else if (block->name == Block::kHealth) {
     encode_health(*state_, image_);
+  } else if (block->name == Block::kSelfTest) {
+    encode_self_test(state_->self_test, image_);
   } else if (block->name == Block::kZone) {
     encode_zone(state_->identity.zones,
                 {image_.get(Register::kZoneTubeRow), image_.get(Register::kZoneTubeColumn)},

@@ -183,6 +183,18 @@ void encode_health(const LinkState& state, RegisterImage& image) {
   image.set(kClaimResponseWorst, counters.claim_response_worst_us);
 }
 
+void encode_self_test(const LinkSelfTest& self_test, RegisterImage& image) {
+  using enum Register;
+  image.set(kSelfTest, static_cast<std::int64_t>(self_test.verdict));
+  image.set(kSelfTestBad, self_test.bad);
+  image.set(kSelfTestAbsent, self_test.absent);
+  image.set(kSelfTestReserved, 0);
+  Validity numbers(image);
+  numbers.value(kBootNumber, self_test.boot > 0, self_test.boot);
+  numbers.value(kStartNumber, self_test.start > 0, self_test.start);
+  image.set(kUp, self_test.up_s & INT32_MAX);
+}
+
 void encode_sighting(const LinkState& state, FieldTime now, RegisterImage& image) {
   using enum Register;
   const Sighting& s = state.sighting ? *state.sighting : Sighting{};

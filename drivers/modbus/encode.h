@@ -18,6 +18,9 @@ inline constexpr core::FieldTime kSightingLasts = std::chrono::milliseconds(100)
 void encode_identity(const LinkIdentity& identity, RegisterImage& image);
 void encode_health(const LinkState& state, RegisterImage& image);
 
+/// The block self_test.
+void encode_self_test(const LinkSelfTest& self_test, RegisterImage& image);
+
 /// The block sighting, as it is to be read at `now`.
 void encode_sighting(const LinkState& state, core::FieldTime now, RegisterImage& image);
 

@@ -36,10 +36,12 @@ class Exchange {
   core::SpscQueue<core::Reply, 64> replies;  ///< to the robot: two steps' full of them
   core::Snapshot<Shown> shown;
   core::Snapshot<LinkHealth> health;
+  core::Snapshot<LinkSelfTest> self_test;
   core::Snapshot<LinkCounters> counters;  ///< as they are, from the server
   std::atomic<std::uint32_t> losses{0};   ///< messages that came garbled or found no room
   std::atomic<bool> connected{false};     ///< there is a line
   std::atomic<bool> stopping{false};
+  std::atomic<std::int64_t> rounds{0};  ///< of the server's thread
 
   /// Wakes the server; never waits.
   void wake() const {

@@ -41,6 +41,16 @@ struct LinkHealth {
   std::int64_t pairs_lost = -1;
 };
 
+/// What the box has found of itself.
+struct LinkSelfTest {
+  Health verdict = Health::kUnknown;  ///< kUnknown: it has not finished
+  std::uint16_t bad = 0;              ///< SelfTestBit
+  std::uint16_t absent = 0;           ///< the same
+  std::int64_t boot = 0;              ///< starts of the machine; 0: not known
+  std::int64_t start = 0;             ///< of the program since then; 0: not known
+  std::int64_t up_s = 0;
+};
+
 /// What has come over the line so far, and how long the box took.
 struct LinkCounters {
   std::uint32_t requests = 0;
@@ -66,6 +76,7 @@ struct LinkState {
   std::optional<core::Sighting> sighting;  ///< the latest
   std::uint32_t sequence = 0;              ///< of that; 0: none yet
   LinkHealth health;
+  LinkSelfTest self_test;
   LinkCounters counters;
 };
 

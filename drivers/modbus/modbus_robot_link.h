@@ -43,10 +43,20 @@ class ModbusRobotLink final : public hal::RobotLink {
   /// What the robot reads of the box's parts; any one thread, started or not.
   void set_health(const LinkHealth& health) { exchange_.health.publish(health); }
 
+  /// What the robot reads of the box's test of itself; any one thread, started or not.
+  void set_self_test(const LinkSelfTest& self_test) { exchange_.self_test.publish(self_test); }
+
   /// What has come over the line so far; false where it changes just now, or nothing came since
   /// the first start. Any thread.
   [[nodiscard]] bool counters(LinkCounters& counters) const {
     return exchange_.counters.try_read(counters);
+  }
+
+  /// Times that the link's thread has come round. It waits for the masters alone: asking wakes it,
+  /// so that the next answer is another one, unless it stands still. Any thread.
+  [[nodiscard]] std::int64_t rounds() const {
+    exchange_.wake();
+    return exchange_.rounds.load();
   }
 
   /// Whether there is a line or a port at present. Any thread.

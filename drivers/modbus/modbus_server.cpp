@@ -9,7 +9,12 @@ ModbusServer::ModbusServer(const ModbusSettings& settings, const LinkIdentity& i
     : settings_(settings),
       exchange_(&exchange),
       clock_(&clock),
-      state_{.identity = identity, .sighting = {}, .sequence = 0, .health = {}, .counters = {}},
+      state_{.identity = identity,
+             .sighting = {},
+             .sequence = 0,
+             .health = {},
+             .self_test = {},
+             .counters = {}},
       outbox_(exchange.events),
       serial_(settings.serial, settings.word_order, state_, outbox_, clock),
       masters_{{{settings.serial.unit, settings.word_order, state_, outbox_, clock},
@@ -54,6 +59,7 @@ void ModbusServer::run() {
       accept_master();
     }
     tell_loop();
+    ++exchange_->rounds;
   }
 }
 
@@ -81,6 +87,10 @@ void ModbusServer::take_news() {
   LinkHealth health;
   if (exchange_->health.try_read(health)) {
     state_.health = health;
+  }
+  LinkSelfTest self_test;
+  if (exchange_->self_test.try_read(self_test)) {
+    state_.self_test = self_test;
   }
   core::Reply reply;
   while (exchange_->replies.try_pop(reply)) {

@@ -56,6 +56,24 @@ enum class CommandBit : std::uint8_t {
 };
 inline constexpr std::int32_t kCommandBits = 5;
 
+/// Bits of self_test_bad and self_test_absent.
+enum class SelfTestBit : std::uint8_t {
+  kNumbers = 0,  ///< the golden recording
+  kCamera = 1,
+  kRate = 2,
+  kTime = 3,
+  kIdentity = 4,  ///< the camera is that of the calibration
+  kLamp = 5,
+  kPattern = 6,
+  kLink = 7,
+  kDisk = 8,
+  kPairs = 9,
+  kPriority = 10,
+  kMemory = 11,
+  kBoots = 12,
+  kWatchdog = 13,
+};
+
 /// Registers start_result and lamp_result, pick_result: 2 is always the refusal.
 inline constexpr std::int32_t kResultTaken = 1;
 inline constexpr std::int32_t kResultRefused = 2;

@@ -250,6 +250,19 @@ constexpr RegisterRow kTable[] = {
      "one standard deviation of zone_x and of zone_y"},
     {Register::kZoneSigmaAlong, 2, 664, 10000, "mm", "zone_sigma_along",
      "one standard deviation of zone_z"},
+    {Register::kSelfTest, 1, 680, 1, "code", "self_test",
+     "0: not finished, 1: nothing is bad, 2: something is"},
+    {Register::kSelfTestBad, 1, 681, 1, "bits", "self_test_bad",
+     "what is bad at present: bit 0: numbers, 1: camera, 2: rate, 3: time, 4: identity, 5: lamp, "
+     "6: pattern, 7: link, 8: disk, 9: pairs, 10: priority, 11: memory, 12: boots, 13: watchdog"},
+    {Register::kSelfTestAbsent, 1, 682, 1, "bits", "self_test_absent",
+     "what is not there, not wanted, or not known yet: the same bits"},
+    {Register::kSelfTestReserved, 1, 683, 1, "", "self_test_reserved", "always 0"},
+    {Register::kBootNumber, 2, 684, 1, "", "boot_number",
+     "starts of the box's machine so far, this one among them"},
+    {Register::kStartNumber, 2, 686, 1, "", "start_number",
+     "starts of its program since then, this one among them"},
+    {Register::kUp, 2, 688, 1, "s", "up", "since the start of the program"},
 };
 
 constexpr RegisterBlock kBlocks[] = {
@@ -263,6 +276,7 @@ constexpr RegisterBlock kBlocks[] = {
     {Block::kRobot, true, 600, 629, "robot"},
     {Block::kZoneTube, true, 640, 643, "zone_tube"},
     {Block::kZone, false, 650, 665, "zone"},
+    {Block::kSelfTest, false, 680, 689, "self_test"},
 };
 
 constexpr bool is_sound() {

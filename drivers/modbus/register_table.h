@@ -192,6 +192,14 @@ enum class Register : std::uint8_t {
   kZoneZ,
   kZoneSigmaAcross,
   kZoneSigmaAlong,
+  // self_test
+  kSelfTest,
+  kSelfTestBad,
+  kSelfTestAbsent,
+  kSelfTestReserved,
+  kBootNumber,
+  kStartNumber,
+  kUp,
   kCount,
 };
 
@@ -207,6 +215,7 @@ enum class Block : std::uint8_t {
   kRobot,
   kZoneTube,
   kZone,
+  kSelfTest,
 };
 
 /// Where a value stands and what its number means.
@@ -233,7 +242,7 @@ struct RegisterBlock {
 };
 
 /// Words of the whole map, those between its blocks among them.
-inline constexpr std::int32_t kMapWords = 666;
+inline constexpr std::int32_t kMapWords = 690;
 
 /// What the map says where a value is not known; its validity bit is off as well.
 inline constexpr std::int32_t kUnknown = INT32_MIN;

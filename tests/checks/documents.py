@@ -5,7 +5,7 @@ Usage: documents.py ROOT | documents.py --self-test
 
 Links of README.md, CONTRIBUTING.md and docs/ lead to files, and to headings where they name one. Folders
 and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
-`drivers/<name>/` for one driver at least. No document holds the marks of a merge that nobody finished.
+`drivers/<name>/` for one driver at least. Tests that docs/faults.md names, `Subject.Claim`, are there. No document holds the marks of a merge that nobody finished.
 """
 import pathlib
 import re
@@ -18,6 +18,8 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
 PATH = re.compile(r"^(?:\./)?([\w.<>-]+/[\w./<>-]*|[\w-]+\.(?:cpp|h|py|md|cmake|sh|json|txt|toml|1))$")
 FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
+TEST = re.compile(r"^([A-Z]\w*\.[A-Z]\w+)$")
+MADE = re.compile(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
 UNMERGED = re.compile(r"^(<{7}|={7}|>{7})( |$)")
 # Made by a build, or a part of C++ or of a command.
 NOT_HERE = ("build/",)
@@ -60,9 +62,15 @@ def lines_of(path):
     return FENCE.sub(lambda match: "\n" * match.group(0).count("\n"), text).splitlines()
 
 
+def tests_of(root):
+    return {f"{subject}.{claim}" for path in (root / "tests").rglob("*_test.cpp")
+            for subject, claim in MADE.findall(path.read_text(encoding="utf-8"))}
+
+
 def check(root):
     root = pathlib.Path(root)
     problems = []
+    tests = tests_of(root)
     documents = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").glob("*.md"))]
     for path in documents:
         name = path.relative_to(root).as_posix()
@@ -74,6 +82,9 @@ def check(root):
                 found += [f"`{word}` does not exist" for word in words
                           if PATH.match(word) and not word.startswith(NOT_HERE)
                           and not is_there(root, word.removeprefix("./"))]
+            if path.name == "faults.md":
+                found += [f"`{code}` is no test" for code in CODE.findall(line)
+                          if TEST.match(code) and code not in tests]
             problems += [f"{name}:{number}: {problem}" for problem in found if problem]
     return problems, len(documents)
 
@@ -86,6 +97,8 @@ def self_test():
                            "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
                            "`board/<name>/`\n`core/x/y.cpp/`\n",
         "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n",
+        "docs/faults.md": "`A.IsThere` `core/x` `a.B`\n`A.IsGone`\n",
+        "tests/a_test.cpp": "TEST_F(A,\n       IsThere) {}\n// TEST(A, IsGone)\n",
         "core/x/y.cpp": "",
         "drivers/v/y.cpp": "",
         "go.sh": "",
@@ -97,7 +110,7 @@ def self_test():
     expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
                 "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`",
-                "docs/a.md:2: a merge"]
+                "docs/a.md:2: a merge", "docs/faults.md:2: `A.IsGone`"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     return report("documents --self-test",

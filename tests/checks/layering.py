@@ -84,6 +84,7 @@ DRIVER_LIBRARY = {
     "drivers/settings": re.compile(r"^toml\+\+/"),
     "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it
     "drivers/v4l2": re.compile(r"^linux/videodev2\.h$"),
+    "drivers/watchdog": re.compile(r"^linux/watchdog\.h$"),
 }
 
 FORBIDDEN_BELOW_BOARD = [

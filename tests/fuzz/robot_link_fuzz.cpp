@@ -149,7 +149,8 @@ class Bench {
     }
   }
 
-  LinkState state_{.identity = {}, .sighting = {}, .sequence = 0, .health = {}, .counters = {}};
+  LinkState state_{
+      .identity = {}, .sighting = {}, .sequence = 0, .health = {}, .self_test = {}, .counters = {}};
   EventQueue events_;
   Outbox outbox_{events_};
   Dialogue dialogue_{WordOrder::kHighFirst, state_, outbox_};

@@ -178,6 +178,12 @@ TEST_F(ServiceUnit, TouchesNothingWhereTheLampIsNotKnown) {
   EXPECT_EQ(duty(), kPeriod);
 }
 
+TEST(ServiceUnitFile, WaitsForTheBoxToSayThatItIsReadyAndKillsOneThatStandsStill) {
+  EXPECT_EQ(values_of("Type"), std::vector<std::string>{"notify"});
+  EXPECT_EQ(values_of("NotifyAccess"), std::vector<std::string>{"main"});
+  EXPECT_EQ(values_of("WatchdogSec"), std::vector<std::string>{"5"});
+}
+
 TEST(ServiceUnitFile, StartsAgainWhatFailedButNotWrongSettings) {
   EXPECT_EQ(values_of("Restart"), std::vector<std::string>{"on-failure"});
   EXPECT_EQ(values_of("RestartPreventExitStatus"), std::vector<std::string>{"2"});

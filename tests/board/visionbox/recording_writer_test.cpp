@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -38,11 +39,11 @@ class WriterTest : public ::testing::Test {
   void start() {
     ASSERT_TRUE(recorder_.configure(settings_.recorder, session_->camera, 100));
     recorder_.put_state(recorder_.state_wanted().size());
-    writer_ = std::make_unique<RecordingWriter>(recorder_, settings_, *session_,
-                                                [this](const std::string& line) {
-                                                  const std::lock_guard lock(mutex_);
-                                                  said_ += line + "\n";
-                                                });
+    writer_ = std::make_unique<RecordingWriter>(
+        recorder_, settings_, *session_, "recorded in boot 17", [this](const std::string& line) {
+          const std::lock_guard lock(mutex_);
+          said_ += line + "\n";
+        });
     writer_->start();
   }
 
@@ -101,6 +102,9 @@ TEST_F(WriterTest, WritesAndSaysWhere) {
   ASSERT_EQ(answer.state, RecordAnswer::State::kWritten) << answer.words;
   EXPECT_TRUE(std::filesystem::exists(answer.words + ".y4m"));
   EXPECT_TRUE(std::filesystem::exists(answer.words + ".session.toml"));
+  std::string first;
+  std::getline(std::ifstream(answer.words + ".session.toml"), first);
+  EXPECT_EQ(first, "# recorded in boot 17") << "who made it, and when";
   const RecorderReport report = writer_->report();
   EXPECT_TRUE(report.open);
   EXPECT_EQ(report.last, answer.words);

@@ -96,6 +96,31 @@ TEST(VisionBox, WaitsForAStartAndGoesOnWithoutFieldsAtTheirRate) {
   EXPECT_EQ(status.sighting.status, core::FieldStatus::kMissing);
 }
 
+TEST(VisionBox, ABoxThatMayJudgeNothingNeverVouchesWhateverItIsTold) {
+  const auto settings = shipped(true);  // its script starts it where the others track
+  settings->source.loop = true;
+  const auto box = std::make_unique<VisionBox>(*settings, [](const std::string&) {});
+  box->judge_nothing();
+  ASSERT_TRUE(box->start_without_tracking());
+  core::Event start = tests::event_of(
+      core::Start{settings->session.settings.start.tubes, {}, false}, core::EventOrigin::kOperator);
+  start.id = ScriptedStation::kFirstStationId + 5;
+  ASSERT_TRUE(box->station().submit(start));
+
+  for (int i = 0; i < 70; ++i) {
+    box->tracking().turn();
+    const core::Sighting& sighting = box->loop().output().sighting;
+    ASSERT_EQ(sighting.state, core::TrackState::kWaiting);
+    ASSERT_FALSE(sighting.aligned);
+    ASSERT_EQ(sighting.judged_fields, 0);
+    ASSERT_EQ(sighting.status, core::FieldStatus::kMissing);
+  }
+
+  const auto reply = box->station().take_reply();
+  ASSERT_TRUE(reply);
+  EXPECT_NE(tests::content_of<core::StartReply>(*reply).refusal, core::StartRefusal::kNone);
+}
+
 TEST(VisionBox, TakesAStartFromTheStationAndAnswersIt) {
   const auto settings = shipped(false);
   const auto box = std::make_unique<VisionBox>(*settings, [](const std::string&) {});

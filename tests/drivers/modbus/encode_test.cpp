@@ -49,6 +49,25 @@ TEST(EncodeSighting, SaysAllThatIsKnown) {
   EXPECT_EQ(bench.get(kResidual), 100);
 }
 
+TEST(EncodeSelfTest, SaysWhatTheBoxFoundOfItself) {
+  LinkBench bench;
+  EXPECT_EQ(bench.get(kSelfTest), 0) << "not finished";
+  EXPECT_EQ(bench.get(kBootNumber), kUnknown);
+  EXPECT_EQ(bench.get(kStartNumber), kUnknown);
+
+  bench.state.self_test = {Health::kFailed, 0x0101, 0x3000, 17, 2, 86'400};
+
+  EXPECT_EQ(bench.get(kSelfTest), 2);
+  EXPECT_EQ(bench.get(kSelfTestBad), 0x0101) << "numbers and disk";
+  EXPECT_EQ(bench.get(kSelfTestAbsent), 0x3000) << "boots and watchdog";
+  EXPECT_EQ(bench.get(kSelfTestReserved), 0);
+  EXPECT_EQ(bench.get(kBootNumber), 17);
+  EXPECT_EQ(bench.get(kStartNumber), 2);
+  EXPECT_EQ(bench.get(kUp), 86'400);
+  bench.state.self_test.verdict = Health::kWell;
+  EXPECT_EQ(bench.get(kSelfTest), 1);
+}
+
 /// Every value of the block but those that need no sighting.
 void expect_nothing_known(LinkBench& bench) {
   EXPECT_EQ(bench.get(kSightingValid), 0);

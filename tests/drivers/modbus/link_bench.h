@@ -68,6 +68,7 @@ class LinkBench {
                            .sighting = make_full_sighting(),
                            .sequence = 5,
                            .health = {},
+                           .self_test = {},
                            .counters = {}};
   drivers::EventQueue events;
   drivers::Outbox outbox{events};

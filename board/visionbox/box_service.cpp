@@ -1,0 +1,99 @@
+#include "board/visionbox/box_service.h"
+
+#include <chrono>
+
+#include "board/box/version.h"
+
+namespace tubesight::board {
+namespace {
+
+std::string origin(const BootCount& boots) {
+  return "recorded by " + std::string(program_version()) + ", " + boots.words();
+}
+
+auto say_to(Log& log) {
+  return [&log](const std::string& line) { log.say(line); };
+}
+
+}  // namespace
+
+BoxService::BoxService(const BoxSettings& settings, const Found& found, Log& log)
+    : settings_(&settings),
+      log_(&log),
+      found_(found),
+      box_(settings, say_to(log), origin(found.boots)),
+      manager_(found.environment, say_to(log)),
+      supervisor_([this] { return box_.beats(); }, settings.watchdog, manager_, say_to(log)),
+      watch_(say_to(log)),
+      self_test_(say_to(log)),
+      desk_([this] { return report(); }, box_, settings.told().start),
+      server_(desk_) {}
+
+bool BoxService::start() {
+  log_->say(found_.boots.words());
+  if (!found_.golden.good) {
+    log_->say("self-test: " + found_.golden.words +
+              "; the box judges no picture and vouches for nothing: this machine or its program is "
+              "faulty");
+    box_.judge_nothing();
+  }
+  if (!settings_->control_socket.empty() && !server_.start(settings_->control_socket)) {
+    log_->say(server_.message());
+    return false;
+  }
+  if (!box_.start()) {
+    log_->say("cannot be started");
+    return false;
+  }
+  log_->say("started, " + std::string(program_version()));
+  supervisor_.start();
+  manager_.say_ready();
+  return true;
+}
+
+void BoxService::serve(int end) {
+  constexpr std::chrono::milliseconds kIdle{100};
+  constexpr std::chrono::milliseconds kBusy{4};  // an answer comes with the next field
+  bool ended = false;
+  while (!ended) {
+    supervisor_.beat();
+    ended = server_.serve(desk_.busy() ? kBusy : kIdle, end);
+    desk_.serve_replies(server_, monotonic_now());
+    box_.look_after();
+    look_round();
+  }
+}
+
+void BoxService::look_round() {
+  log_->tell_repeats(monotonic_now());
+  const BoxReport now = report();
+  watch_.look(now);
+  self_test_.look(now);
+  box_.tell_robot(self_test_.told());
+  if (watch_.headline() != told_manager_) {
+    told_manager_ = watch_.headline();
+    manager_.say_status(told_manager_);
+  }
+}
+
+void BoxService::stop() {
+  manager_.say_stopping();
+  supervisor_.begin_to_stop();
+  box_.stop();
+  desk_.serve_replies(server_, monotonic_now());  // what stop() wrote, somebody may wait for
+  server_.stop();
+  supervisor_.stop();
+  log_->say("stopped");
+}
+
+BoxReport BoxService::report() const {
+  BoxReport report = box_.report();
+  report.fields_per_s = watch_.fields_per_s();
+  report.supervision = supervisor_.report();
+  report.golden = found_.golden;
+  report.boots = found_.boots;
+  report.self_test_finished = self_test_.finished();
+  return report;
+}
+
+}  // namespace tubesight::board
