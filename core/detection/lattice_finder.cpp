@@ -13,28 +13,16 @@ namespace {
 // A bright rim beside a dim sheet wants a low threshold, a dim gap between bright rims a high one.
 constexpr std::array kShares = {0.5, 0.25};
 
-// An element stands where its neighbours say, to these shares of the shorter step: one that a spot
-// shows, and one that was looked for. The next element is a whole step off.
-constexpr double kStranger = 0.3;
-constexpr double kNewcomer = 0.15;
-// One that a spot shows is measured again where its strangeness is above this.
-constexpr double kDoubtful = 0.85;
-
 // An edge measured around a spot has the spot's own form to this.
 constexpr double kLeastOfSpot = 0.85;
 constexpr double kMostOfSpot = 1.2;
 
-// Below this half axis an edge is mostly blur, and the spot is weighed.
-constexpr double kLeastMeasured_px = 6.5;
-// Above this one the light across it is uneven, and its pixels say it better.
+// Above this half axis the light across it is uneven, and its pixels say it better.
 constexpr double kMostWeighed_px = 10.0;
 
 // One that stands out less than this share of its neighbours' mean is none; the lamp's light falls
 // by less from one to the next.
 constexpr double kFaint = 0.25;
-
-// Nothing smaller is looked for where no spot was found.
-constexpr double kLeastLookedFor_px = 2.0;
 
 /// The picture with dark elements and its darkest at zero.
 picture::AveragedPicture stretch(const picture::AveragedPicture& picture, bool dark,
@@ -73,11 +61,16 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   take_places(growth, found);
   const picture::AveragedPicture stretched = stretch(picture, found.dark, scratch);
   measure_all(stretched, found);
+  straighten(stretched, found);
   find_centers(found);
   weigh_all(stretched, found);
   drop_strangers(found);
+  measure_steps(found);
   measure_doubtful(stretched, found);
   complete(stretched, found);
+  straighten(stretched, found);
+  measure_doubtful(stretched, found);
+  drop_unsure(found);
   find_centers(found);  // by centres now, as those before were by the ellipses' own
   weigh_all(stretched, found);
   count_from_zero(found);
@@ -205,34 +198,14 @@ bool LatticeFinder::is_faint(const FoundLattice& found, const LatticeElement& el
   return element.contrast >= 0.0 && element.contrast * count < kFaint * sum;
 }
 
-/// Measures again, from where the neighbours expect it, what is less like them than it should be:
-/// the spot was joined to a shadow beside it, and the edge followed.
-void LatticeFinder::measure_doubtful(const picture::AveragedPicture& stretched,
-                                     FoundLattice& found) {
-  for (LatticeElement& element : found.elements) {
-    LocalMap map;
-    if (!map.fit(around(found, element.row, element.column, false))) {
-      continue;
-    }
-    const double strange = strangeness(map, element.ellipse, found.steps, kStranger);
-    LatticeElement again = element;
-    again.ellipse = map.element(found.steps);
-    if (strange > kDoubtful && half_axes(again.ellipse).y() >= kLeastMeasured_px &&
-        look_for_edge(stretched, found.steps, element_, again) &&
-        strangeness(map, again.ellipse, found.steps, kStranger) < strange) {
-      again.center_px = map.center_of(again.ellipse);
-      element = again;
-    }
-  }
-}
-
 /// strangeness() of an element by its neighbours; 0 where they do not tell.
 float LatticeFinder::how_strange(const FoundLattice& found, const LatticeElement& element) const {
-  if (is_faint(found, element)) {
+  if (is_faint(found, element) ||
+      is_closed(element, black_around(found, element.row, element.column))) {
     return static_cast<float>(kMostStrange);
   }
   LocalMap map;
-  return map.fit(around(found, element.row, element.column, false))
+  return map.fit(around(found, element.row, element.column, false), lens_)
              ? static_cast<float>(strangeness(map, element.ellipse, found.steps, kStranger))
              : 0.0F;
 }
@@ -281,92 +254,69 @@ void LatticeFinder::measure_all(const picture::AveragedPicture& stretched, Found
   }
 }
 
+/// Learns how the lens bends the rows of what was found.
+void LatticeFinder::straighten(const picture::AveragedPicture& stretched,
+                               const FoundLattice& found) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const LatticeElement& element : found.elements) {
+    mean += Eigen::Vector2d(element.column, element.row) / found.elements.size();
+  }
+  std::size_t count = 0;
+  for (const LatticeElement& element : found.elements) {
+    indexed_[count++] = {Eigen::Vector2d(element.column, element.row) - mean, element.center_px};
+  }
+  lens_ = find_bend(std::span<const IndexedPoint>(indexed_).first(count),
+                    {stretched.width_px, stretched.height_px});
+}
+
+/// The steps in radii again, by the edges that were measured: what the spots said of them is as
+/// rough as their outlines.
+void LatticeFinder::measure_steps(FoundLattice& found) {
+  std::size_t count = 0;
+  for (const LatticeElement& element : found.elements) {
+    LocalMap map;
+    if (element.share == 0.0 || !map.fit(around(found, element.row, element.column, true), lens_)) {
+      continue;
+    }
+    // The element as an ellipse of the index plane.
+    const Eigen::Matrix2d back = map.slope().inverse();
+    const Eigen::Matrix2d form = back * element.ellipse.shape_px2 * back.transpose();
+    forms_[0][count] = form(0, 0);
+    forms_[1][count] = form(0, 1);
+    forms_[2][count++] = form(1, 1);
+  }
+  constexpr std::size_t kLeast = 3;
+  if (count < kLeast) {
+    return;
+  }
+  std::array<double, 3> middle{};
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    double* const at = forms_[i].data() + count / 2;
+    std::nth_element(forms_[i].data(), at, forms_[i].data() + count);
+    middle[i] = *at;
+  }
+  // Its inverse has the products of the steps.
+  const double determinant = middle[0] * middle[2] - middle[1] * middle[1];
+  if (!(determinant > 0.0)) {
+    return;
+  }
+  const Eigen::Vector2d along = found.steps.column.normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const double length = std::sqrt(middle[2] / determinant);
+  const double side = across.dot(found.steps.row) < 0.0 ? -1.0 : 1.0;
+  found.steps.column = length * along;
+  found.steps.row =
+      -middle[1] / determinant / length * along + side * std::sqrt(1.0 / middle[2]) * across;
+}
+
 /// The images of the centres, by what the neighbours' say.
 void LatticeFinder::find_centers(FoundLattice& found) {
   for (LatticeElement& element : found.elements) {
     LocalMap map;
-    if (map.fit(around(found, element.row, element.column, true))) {
+    if (map.fit(around(found, element.row, element.column, true), lens_)) {
       element.center_px = map.center_of(element.ellipse);
     }
   }
-}
-
-/// Looks for elements beside those that there are, as long as there are more; then over a lane.
-void LatticeFinder::complete(const picture::AveragedPicture& stretched, FoundLattice& found) {
-  constexpr std::int32_t kLane = 2;
-  std::int32_t beside = 0;  // elements around which all was looked for
-  std::int32_t across = 0;
-  // The list grows while it is walked: what was found now is looked around from, too.
-  while (beside < found.elements.size() || across < found.elements.size()) {
-    if (beside < found.elements.size()) {
-      look_beside(stretched, beside++, 1, found);
-    } else {
-      look_beside(stretched, across++, kLane, found);
-    }
-  }
-}
-
-/// Looks for the elements so many steps from one to all sides.
-void LatticeFinder::look_beside(const picture::AveragedPicture& stretched, std::int32_t from,
-                                std::int32_t steps, FoundLattice& found) {
-  constexpr std::array<std::array<std::int32_t, 2>, 8> kSides = {
-      {{0, 1}, {0, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
-  for (const auto& side : kSides) {
-    const std::int32_t row = found.elements[from].row + steps * side[0];
-    const std::int32_t column = found.elements[from].column + steps * side[1];
-    if (in_table(row, column) && entry(row, column) == -1 && !found.elements.full() &&
-        !try_place(stretched, from, row, column, found)) {
-      entry(row, column) = -2;  // not again
-    }
-  }
-}
-
-/// Looks for an element where its neighbours, `from` among them, let expect it.
-bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::int32_t from,
-                              std::int32_t row, std::int32_t column, FoundLattice& found) {
-  LocalMap map;
-  if (!map.fit(around(found, row, column, false))) {
-    return false;
-  }
-  const Ellipse expected = map.element(found.steps);
-  const Eigen::Vector2d place = map.to_pixel(Eigen::Vector2d::Zero());
-  if (!(half_axes(expected).y() > kLeastLookedFor_px) || place.x() < 0.0 || place.y() < 0.0 ||
-      place.x() > stretched.width_px - 1.0 || place.y() > stretched.height_px - 1.0) {
-    return false;
-  }
-  LatticeElement element;
-  element.row = row;
-  element.column = column;
-  element.ellipse = expected;
-  const bool small = half_axes(expected).y() < kLeastMeasured_px;
-  const bool seen = small ? look_for_spot(stretched, found.elements[from].ellipse, found.steps,
-                                          least_contrast_, element)
-                          : look_for_edge(stretched, found.steps, element_, element);
-  if (!(seen && strangeness(map, element.ellipse, found.steps, kNewcomer) <= 1.0) &&
-      (small || !look_for_blob(stretched, map, found, element))) {
-    return false;
-  }
-  element.center_px = map.center_of(element.ellipse);
-  entry(row, column) = static_cast<std::int16_t>(found.elements.size());
-  return found.elements.try_push_back(element);
-}
-
-/// The same by a spot that was found near there and not ordered: far out, what the neighbours let
-/// expect is too far off for an edge.
-bool LatticeFinder::look_for_blob(const picture::AveragedPicture& stretched, const LocalMap& map,
-                                  const FoundLattice& found, LatticeElement& element) {
-  for (const Blob& blob : blobs_) {
-    if (blob.dark != found.dark ||
-        !(strangeness(map, blob.ellipse, found.steps, kStranger) <= 1.0)) {
-      continue;
-    }
-    element.ellipse = blob.ellipse;
-    if (measure_spot(stretched, found.steps, element_, element) &&
-        strangeness(map, element.ellipse, found.steps, kStranger) <= 1.0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 /// The centroids of the elements' areas, by their pixels: what an edge fitted by an ellipse is bent
@@ -374,6 +324,7 @@ bool LatticeFinder::look_for_blob(const picture::AveragedPicture& stretched, con
 void LatticeFinder::weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found) {
   for (LatticeElement& element : found.elements) {
     Ellipse spot = element.ellipse;
+    element.levels = measure_levels(stretched, element.ellipse);
     element.contrast = weigh_spot(stretched, room_of(spot, found.steps), spot);
     element.centroid_px = spot.center_px;
   }
@@ -389,6 +340,7 @@ void LatticeFinder::count_from_zero(FoundLattice& found) {
   for (LatticeElement& element : found.elements) {
     element.row -= row;
     element.column -= column;
+    element.share = element.by_contrast ? 0.0 : element.share;
   }
   std::sort(found.elements.begin(), found.elements.end(),
             [](const LatticeElement& a, const LatticeElement& b) {

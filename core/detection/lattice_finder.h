@@ -13,6 +13,7 @@
 #include "core/detection/element_edge.h"
 #include "core/detection/ellipse.h"
 #include "core/detection/lattice_growth.h"
+#include "core/detection/lens_bend.h"
 #include "core/detection/local_map.h"
 #include "core/detection/threshold_map.h"
 #include "core/picture/averaged_picture.h"
@@ -28,9 +29,11 @@ struct LatticeElement {
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
   /// The centroid of its area in the picture, for what is predicted as such.
   Eigen::Vector2d centroid_px = Eigen::Vector2d::Zero();
-  double contrast = 0.0;  ///< with what is around, grey levels; -1: at the picture's edge
-  double share = 0.0;     ///< of the outline that was measured; 0: none of it
-  double rms_px = 0.0;    ///< of the edge's points from the ellipse
+  double contrast = 0.0;     ///< with what is around, grey levels; -1: at the picture's edge
+  double share = 0.0;        ///< of the outline that was measured; 0: none of it
+  double rms_px = 0.0;       ///< of the edge's points from the ellipse
+  bool by_contrast = false;  ///< no edge was measured, and its share is 0 in the end
+  Levels levels;             ///< above the picture's darkest
 };
 
 /// A lattice found in a picture. 0.1 MB.
@@ -79,12 +82,17 @@ class LatticeFinder {
                                          const FinderOptions& options);
   void take_places(const Growth& growth, FoundLattice& found);
   void measure_all(const picture::AveragedPicture& stretched, FoundLattice& found);
+  void straighten(const picture::AveragedPicture& stretched, const FoundLattice& found);
+  void measure_steps(FoundLattice& found);
   void drop_strangers(FoundLattice& found);
   void measure_doubtful(const picture::AveragedPicture& stretched, FoundLattice& found);
+  void drop_unsure(FoundLattice& found);
   [[nodiscard]] float how_strange(const FoundLattice& found, const LatticeElement& element) const;
   [[nodiscard]] bool is_worst(const FoundLattice& found,
                               const std::array<float, kMaxElements>& strange,
                               std::int32_t index) const;
+  [[nodiscard]] double black_around(const FoundLattice& found, std::int32_t row,
+                                    std::int32_t column) const;
   [[nodiscard]] bool is_faint(const FoundLattice& found, const LatticeElement& element) const;
   void complete(const picture::AveragedPicture& stretched, FoundLattice& found);
   void look_beside(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t steps,
@@ -109,6 +117,9 @@ class LatticeFinder {
   LatticeGrowth growth_;
   std::array<Growth, 2> grown_;  ///< dark, bright
   ElementScratch element_;
+  LensBend lens_;
+  std::array<IndexedPoint, kMaxElements> indexed_{};
+  std::array<std::array<double, kMaxElements>, 3> forms_{};
   double least_contrast_ = 0.0;  ///< of the options of this search
   std::array<std::int16_t, static_cast<std::size_t>(kSide) * kSide> table_{};
 };

@@ -13,21 +13,23 @@ namespace {
 using Unknowns = Eigen::Matrix<double, 8, 1>;
 using Normal = Eigen::Matrix<double, 8, 8>;
 
-constexpr std::int32_t kLeastPoints = 5;
+constexpr std::size_t kLeastPoints = 5;
 
 }  // namespace
 
-bool LocalMap::fit(const MapPoints& points) {
+bool LocalMap::fit(std::span<const IndexedPoint> points, const LensBend& lens) {
   if (points.size() < kLeastPoints) {
     return false;
   }
+  lens_ = lens;
+  const auto count = static_cast<double>(points.size());
   origin_px_.setZero();
   for (const IndexedPoint& point : points) {
-    origin_px_ += point.place_px / points.size();
+    origin_px_ += lens.straight(point.place_px) / count;
   }
   scale_px_ = 0.0;
   for (const IndexedPoint& point : points) {
-    scale_px_ += (point.place_px - origin_px_).norm() / points.size();
+    scale_px_ += (lens.straight(point.place_px) - origin_px_).norm() / count;
   }
   if (!(scale_px_ > 0.0)) {
     return false;
@@ -41,7 +43,7 @@ bool LocalMap::fit(const MapPoints& points) {
   Unknowns right = Unknowns::Zero();
   for (const IndexedPoint& point : points) {
     const Eigen::Vector3d m(point.index.x(), point.index.y(), 1.0);
-    const Eigen::Vector2d p = (point.place_px - origin_px_) / scale_px_;
+    const Eigen::Vector2d p = (lens.straight(point.place_px) - origin_px_) / scale_px_;
     plain += m * m.transpose();
     by_u += p.x() * m.head<2>() * m.transpose();
     by_v += p.y() * m.head<2>() * m.transpose();
@@ -73,7 +75,15 @@ bool LocalMap::fit(const MapPoints& points) {
 
 Eigen::Vector2d LocalMap::to_pixel(const Eigen::Vector2d& index) const {
   const Eigen::Vector3d p = map_ * index.homogeneous();
-  return origin_px_ + scale_px_ * p.head<2>() / p.z();
+  return lens_.bent(origin_px_ + scale_px_ * p.head<2>() / p.z());
+}
+
+Eigen::Matrix2d LocalMap::slope() const {
+  constexpr double kSmall = 0.05;
+  Eigen::Matrix2d slope;
+  slope << to_pixel({kSmall, 0.0}) - to_pixel({-kSmall, 0.0}),
+      to_pixel({0.0, kSmall}) - to_pixel({0.0, -kSmall});
+  return slope / (2.0 * kSmall);
 }
 
 Ellipse LocalMap::element(const Steps& steps) const {
@@ -93,10 +103,11 @@ Ellipse LocalMap::element(const Steps& steps) const {
   // The dual of an ellipse about c is c c^T - S.
   ellipse.shape_px2 =
       scale_px_ * scale_px_ * (center * center.transpose() - scaled.topLeftCorner<2, 2>());
-  return ellipse;
+  return lens_.bent(ellipse);
 }
 
-Eigen::Vector2d LocalMap::center_of(const Ellipse& ellipse) const {
+Eigen::Vector2d LocalMap::center_of(const Ellipse& shown) const {
+  const Ellipse ellipse = lens_.straight(shown);
   // C^-1 l, C^-1 being the dual conic up to a factor.
   const Eigen::Vector2d center = (ellipse.center_px - origin_px_) / scale_px_;
   Eigen::Matrix3d dual;
@@ -104,7 +115,7 @@ Eigen::Vector2d LocalMap::center_of(const Ellipse& ellipse) const {
       center.transpose(), 1.0;
   const Eigen::Vector3d vanishing = map_.inverse().row(2).transpose();
   const Eigen::Vector3d pole = dual * vanishing;
-  return origin_px_ + scale_px_ * pole.head<2>() / pole.z();
+  return lens_.bent(origin_px_ + scale_px_ * pole.head<2>() / pole.z());
 }
 
 double LocalMap::shorter_step_px() const {

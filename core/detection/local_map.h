@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include <Eigen/Core>
 
 #include "core/base/static_vector.h"
 #include "core/detection/ellipse.h"
 #include "core/detection/lattice_growth.h"
+#include "core/detection/lens_bend.h"
 
 namespace tubesight::core::detection {
 
@@ -21,16 +23,19 @@ inline constexpr std::int32_t kMaxMapPoints = 49;
 using MapPoints = StaticVector<IndexedPoint, kMaxMapPoints>;
 
 /// How the picture shows the lattice's plane around one of its places: a homography from (column,
-/// row), counted from the place, to pixels. The lens bends it over the picture, hardly over a few
-/// elements.
+/// row), counted from the place, to pixels that the lens has not bent. What is left of its bending
+/// over a few elements is little.
 class LocalMap {
  public:
   /// Fits the map to elements nearby, by least squares. False: fewer than five, all in a line, or
   /// a plane that is seen from its edge.
-  [[nodiscard]] bool fit(const MapPoints& points);
+  [[nodiscard]] bool fit(std::span<const IndexedPoint> points, const LensBend& lens);
 
   /// Where the picture shows a place; for places near those of the fit.
   [[nodiscard]] Eigen::Vector2d to_pixel(const Eigen::Vector2d& index) const;
+
+  /// Pixels a step of column and of row at the place asked for.
+  [[nodiscard]] Eigen::Matrix2d slope() const;
 
   /// The ellipse that an element at the place asked for shows as, by the lattice's steps in radii.
   [[nodiscard]] Ellipse element(const Steps& steps) const;
@@ -43,6 +48,7 @@ class LocalMap {
   [[nodiscard]] double shorter_step_px() const;
 
  private:
+  LensBend lens_;
   Eigen::Matrix3d map_ = Eigen::Matrix3d::Identity();  ///< from (column, row) to scaled pixels
   Eigen::Vector2d origin_px_ = Eigen::Vector2d::Zero();
   double scale_px_ = 1.0;

@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "core/picture/rim_in_shade.h"
+
 namespace tubesight::core::picture {
 namespace {
 
@@ -102,7 +104,8 @@ std::int32_t count_used(const Findings& findings) {
 
 /// Whether the inside of the outline is as bright as its outside: mean levels at half the way to
 /// the outline and as far outside it.
-bool is_bright(const AveragedPicture& picture, const RimOutline& outline) {
+bool is_bright(const AveragedPicture& picture, const RimOutline& outline,
+               const RimDarkness& darkness) {
   double inside = 0.0;
   double outside = 0.0;
   double count = 0.0;
@@ -124,13 +127,20 @@ bool is_bright(const AveragedPicture& picture, const RimOutline& outline) {
       count += 1.0;
     }
   }
-  return count > 0.0 && inside > 0.6 * outside;
+  const double black = darkness.black_grey * kGreyScale * count;
+  return count > 0.0 && inside - black > darkness.most_inside * (outside - black);
 }
 
 }  // namespace
 
 RimFinding measure_rim(const AveragedPicture& picture, const RimOutline& outline,
                        const RimMeasureOptions& options, Rim& rim) {
+  return measure_rim_in_shade(picture, outline, options, {}, rim);
+}
+
+RimFinding measure_rim_in_shade(const AveragedPicture& picture, const RimOutline& outline,
+                                const RimMeasureOptions& options, const RimDarkness& darkness,
+                                Rim& rim) {
   rim.points.clear();
   if (std::min(outline.half_width_px, outline.half_height_px) < options.least_half_px) {
     return RimFinding::kTooSmall;
@@ -151,7 +161,7 @@ RimFinding measure_rim(const AveragedPicture& picture, const RimOutline& outline
   if (all - outside < least) {
     return RimFinding::kOutside;
   }
-  if (is_bright(picture, outline)) {
+  if (is_bright(picture, outline, darkness)) {
     return RimFinding::kBright;
   }
   if (findings.size() < std::max(least, (all - outside) / 3)) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Lattices found cold by `tubesight look`, held against published or true places (docs/accuracy.md).
 
-Usage: look_accuracy.py PROGRAM FOLDER... | look_accuracy.py PROGRAM --campaign FRAMES [SEED]
+Usage: look_accuracy.py PROGRAM FOLDER... | look_accuracy.py PROGRAM --campaign FRAMES [SEED] [DRAWN]
        | look_accuracy.py --self-test
 
 A folder holds pictures and a table of what they show. `centres.csv` (photographs of dot lattices):
@@ -13,7 +13,8 @@ first frame of `recording.y4m.xz`, or the stills `still-POSE-0.png`, inside `win
 With `--campaign`: the first frames of that many moves of the randomised campaign (docs/campaign.md),
 each drawn whole by `tubesight simulate`. Needed are the tube-ends whose centre is in the move's window,
 whose ellipse is larger than 16 px and of whose rim half is in sight; told are the frames in which one is
-missed or one is wrong, and how many there are.
+missed or one is wrong, and how many there are. A tube-end found where the sheet has a plug counts as
+wrong. What was drawn is kept in the folder DRAWN, and not drawn again.
 
 Told for each picture: elements there, found, out of order, surplus, and the distance of the centres.
 Exit status 1 when an element is out of order or surplus, with `--campaign` also when one is missed in
@@ -112,14 +113,16 @@ def photographs(folder):
     return there, None
 
 
-def campaign_frame(program, seed, move, folder):
-    """The picture, and what is there as photographs() tells it; the window; the move's stratum."""
+def draw_move(program, seed, move, folder):
+    """Draws the first frame of a move into `folder`, where it is not there yet."""
+    if (folder / "told.txt").exists():
+        return
+    folder.mkdir(parents=True, exist_ok=True)
     scenario = folder / "m.toml"
     told = subprocess.run([program, "campaign", "--replay-move", f"{seed}:{move}", "--out", scenario],
                           check=True, capture_output=True, text=True).stdout
     text = scenario.read_text(encoding="utf-8")
-    settings = tomllib.loads(text)
-    one_frame = "length_s = %r" % (1.0 / settings["video"]["rate_hz"])
+    one_frame = "length_s = %r" % (1.0 / tomllib.loads(text)["video"]["rate_hz"])
     # Moves draw the search window and a margin alone. What happens in them would be behind the end.
     text = "".join(part for part in re.split(r"(?m)^(?=\[)", text)
                    if part.startswith("[[step]]") or not part.startswith("[["))
@@ -127,7 +130,12 @@ def campaign_frame(program, seed, move, folder):
     scenario.write_text(re.sub(r"(?m)^length_s = .*$", one_frame, text, count=1), encoding="utf-8")
     subprocess.run([program, "simulate", scenario, "--out", folder / "r"], check=True,
                    stdout=subprocess.DEVNULL)
-    window = settings["start"]["window_px"]
+    (folder / "told.txt").write_text(told, encoding="utf-8")
+
+
+def campaign_frame(folder):
+    """The picture, and what is there as photographs() tells it; the window; the move's stratum."""
+    window = tomllib.loads((folder / "m.toml").read_text(encoding="utf-8"))["start"]["window_px"]
     there = []
     with open(folder / "r.centers.csv", encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -138,15 +146,18 @@ def campaign_frame(program, seed, move, folder):
             seen = float(row["rim_in_frame"]) - float(row["occluded"])
             there.append(((int(row["row"]), int(row["col"])), u, v, max(NEAR_PX, half / 4.0),
                           inside(window, u, v) and 2.0 * half > LEAST_PX and seen >= LEAST_SEEN))
+    told = (folder / "told.txt").read_text(encoding="utf-8")
     return folder / "r.y4m", there, window, told.split(", ", 1)[1].split("\n", 1)[0]
 
 
-def run_campaign(program, frames, seed):
+def run_campaign(program, frames, seed, drawn):
     """Prints a line a frame with something missed or wrong, and the sum."""
     wanted, found_all, missing, wrong = 0, 0, 0, 0
     for move in range(frames):
         with tempfile.TemporaryDirectory() as name:
-            picture, there, window, stratum = campaign_frame(program, seed, move, pathlib.Path(name))
+            folder = pathlib.Path(drawn or name) / f"{seed}-{move}"
+            draw_move(program, seed, move, folder)
+            picture, there, window, stratum = campaign_frame(folder)
             found = next(iter(look(program, [picture]).values()), [])
         missed, order, surplus, distances = compare(found, there)
         surplus = [element for element in surplus if inside(window, element[2], element[3])]
@@ -222,8 +233,8 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["--self-test"]:
         self_test()
     elif sys.argv[2:3] == ["--campaign"]:
-        numbers = [int(word) for word in sys.argv[3:]]
-        sys.exit(0 if run_campaign(sys.argv[1], numbers[0], (numbers + [1])[1]) else 1)
+        frames, seed, drawn = (sys.argv[3:] + ["1", ""][len(sys.argv) - 4:])[:3]
+        sys.exit(0 if run_campaign(sys.argv[1], int(frames), int(seed), drawn) else 1)
     else:
         results = [run(sys.argv[1], pathlib.Path(folder)) for folder in sys.argv[2:]]
         sys.exit(0 if all(results) else 1)

@@ -33,6 +33,7 @@ struct DrawnLattice {
   double background = 180.0;
   double inside = 30.0;
   double noise = 0.0;
+  double veil = 0.0;    ///< light that the lens scatters over all of the picture
   double shadow = 0.0;  ///< light lost from the left edge to the right one
   bool (*absent)(int row, int column) = nullptr;
   std::vector<std::uint16_t> pixels;
@@ -123,7 +124,7 @@ struct DrawnLattice {
       for (int u = 0; u < width_px; ++u) {
         const double light = 1.0 - shadow * u / width_px;
         const double grey =
-            light * (background + (inside - background) * cover_of(back, to_index, u, v)) +
+            light * (background + (inside - background) * cover_of(back, to_index, u, v)) + veil +
             noise * spread(random);
         pixels[at++] =
             static_cast<std::uint16_t>(std::lround(256.0 * std::fmin(255.0, std::fmax(0.0, grey))));

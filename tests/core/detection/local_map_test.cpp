@@ -37,7 +37,7 @@ MapPoints points_around(int reach) {
 
 TEST(LocalMap, MapsPlacesAsTheOneItWasFittedTo) {
   LocalMap map;
-  ASSERT_TRUE(map.fit(points_around(2)));
+  ASSERT_TRUE(map.fit(points_around(2), {}));
 
   for (const Eigen::Vector2d& index :
        {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(3.0, -1.0), Eigen::Vector2d(0.4, 2.7)}) {
@@ -50,7 +50,7 @@ TEST(LocalMap, ExpectsTheEllipseThatTheCirclesPointsLieOn) {
   // Steps of 3 and 2.5 radii, 80 degrees apart: a circle of radius 1 in the plane.
   const Steps steps{{3.0, 0.0}, {2.5 * std::cos(1.396), 2.5 * std::sin(1.396)}};
   LocalMap map;
-  ASSERT_TRUE(map.fit(points_around(2)));
+  ASSERT_TRUE(map.fit(points_around(2), {}));
 
   const Ellipse ellipse = map.element(steps);
 
@@ -78,8 +78,37 @@ TEST(LocalMap, RefusesPointsThatTellNoPlane) {
         few.try_push_back({Eigen::Vector2d(i % 2, i / 2), seen(Eigen::Vector2d(i % 2, i / 2))}));
   }
 
-  EXPECT_FALSE(map.fit(line));
-  EXPECT_FALSE(map.fit(few));
+  EXPECT_FALSE(map.fit(line, {}));
+  EXPECT_FALSE(map.fit(few, {}));
+}
+
+TEST(LensBend, StraightensABentLatticeAndBendsItAgain) {
+  // Bent by hand towards the middle of a picture of 640 x 480, by a tenth at its corner.
+  const Eigen::Vector2d middle(319.5, 239.5);
+  const LensBend known(middle, 0.1 / middle.squaredNorm());
+  std::array<IndexedPoint, 63> points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector2d index(static_cast<double>(i % 9) - 4.0, static_cast<double>(i / 9) - 3.0);
+    points[i] = {index, known.bent(middle + 75.0 * index)};
+    EXPECT_LT((known.straight(points[i].place_px) - middle - 75.0 * index).norm(), 1e-3);
+  }
+
+  const LensBend found = find_bend(points, {640.0, 480.0});
+
+  for (const IndexedPoint& point : points) {
+    EXPECT_LT((found.straight(point.place_px) - known.straight(point.place_px)).norm(), 3.0);
+  }
+  LocalMap map;
+  ASSERT_TRUE(map.fit(points, found));
+  EXPECT_LT((map.to_pixel({4.0, 3.0}) - points[62].place_px).norm(), 0.2);
+}
+
+TEST(LensBend, FewElementsTellNone) {
+  const MapPoints points = points_around(1);
+
+  const LensBend found = find_bend(points, {640.0, 480.0});
+
+  EXPECT_EQ(found.straight(Eigen::Vector2d(600.0, 20.0)), Eigen::Vector2d(600.0, 20.0));
 }
 
 TEST(SpotWeight, PlacesASmallSpotToAFractionOfAPixel) {
