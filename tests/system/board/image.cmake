@@ -10,7 +10,7 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_BUILD_TYPE MATCHES "^Rel")
   add_test(NAME board.image_long COMMAND Python3::Interpreter -B ${here}/image_test.py --long)
   set_tests_properties(board.image_long PROPERTIES LABELS "board;long" TIMEOUT 14400 RUN_SERIAL ON)
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64 AND TARGET tubesightd)
-  add_test(NAME board.image COMMAND Python3::Interpreter -B ${here}/image_test.py
+  add_test(NAME board.image COMMAND ${Python3_EXECUTABLE} -B ${here}/image_test.py
     --cpack ${CMAKE_CPACK_COMMAND} --build ${PROJECT_BINARY_DIR})
   set_tests_properties(board.image PROPERTIES LABELS board TIMEOUT 1500 COST 1000)
 endif()
