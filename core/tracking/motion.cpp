@@ -26,7 +26,8 @@ Rest rest_of(const Motion<S>& motion, Parity parity) {
            absolute(turn.y) < turned && absolute(turn.z) < turned;
   };
   const M fastest = M(kRest_mm_s);
-  if (!motion.known ||
+  // Four times as fast from field to field is a tool that goes to and fro.
+  if (!motion.known || plane_length(motion.velocity_mm_s) >= M(4 * kRest_mm_s) ||
       plane_length(whole ? motion.velocity_mm_s : motion.mean_velocity_mm_s) >= fastest) {
     return Rest::kNone;
   }
@@ -145,7 +146,7 @@ Motion<S> motion_between(const SheetPose<S>& before, const ToolPoint<S>& tool_be
   motion.velocity_mm_s = {rate(moved.x), rate(moved.y)};
   motion.approach_mm_s = rate(tool_after.height_mm - tool_before.height_mm);
   const auto mean = [&last](M now, M earlier) {
-    return last.known ? times(now + earlier, constant<M>(0.5)) : now;
+    return last.known ? times(now, constant<M>(0.5)) + times(earlier, constant<M>(0.5)) : now;
   };
   motion.mean_velocity_mm_s = {mean(motion.velocity_mm_s.x, last.velocity_mm_s.x),
                                mean(motion.velocity_mm_s.y, last.velocity_mm_s.y)};
