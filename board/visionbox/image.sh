@@ -44,12 +44,19 @@ root_a_at=$((boot_at + boot_size))
 root_b_at=$((root_a_at + root_size))
 data_at=$((root_b_at + root_size)) data_size=96
 
+if [ -n "$package" ]; then
+  [ -f "$package" ] || fail "$package: no such package"
+  is=$(dpkg-deb -W --showformat '${Package} ${Architecture}' "$package" 2> /dev/null || true)
+  [ "$is" = "tubesight arm64" ] \
+    || fail "$package: expected the package tubesight of arm64, found ${is:-no Debian package}"
+fi
+# A card's device is no place: it would be replaced by a file of that name.
+[ ! -e "$out" ] || [ -f "$out" ] || fail "$out is no file; docs/board.md tells how an image gets onto a card"
 scripts/install_packages.sh image
 if [ -z "$package" ]; then
   board/visionbox/package.sh arm64 build/packages > /dev/null
   package=$(ls -t build/packages/tubesight_*_arm64.deb | head -n 1)
 fi
-[ -f "$package" ] || fail "$package: no such package"
 
 # --- Debian's packages, and the kernel unpacked
 
