@@ -315,9 +315,9 @@ class Slots(Folder):
 class ImageScript(Folder):
     """What it refuses, before anything is installed, fetched or written."""
 
-    def refuses(self, *arguments, status=1):
+    def refuses(self, *arguments, status=1, **environment):
         done = subprocess.run([IMAGE_SCRIPT, *arguments], capture_output=True, text=True, check=False,
-                              stdin=subprocess.DEVNULL, timeout=30)
+                              stdin=subprocess.DEVNULL, timeout=30, env={**os.environ, **environment})
         self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
         return done.stderr
 
@@ -347,6 +347,11 @@ class ImageScript(Folder):
         package = self.package("tubesight", "arm64")
         for out in (self.folder, pathlib.Path("/dev/null")):
             self.assertIn(f"{out} is no file", self.refuses("--package", package, out))
+
+    def test_a_time_is_asked_for_where_git_has_none(self):
+        said = self.refuses("--package", self.package("tubesight", "arm64"), self.folder / "out.img",
+                            GIT_DIR=str(self.folder), SOURCE_DATE_EPOCH="")
+        self.assertIn("not a checkout with git; set SOURCE_DATE_EPOCH", said)
 
 
 if __name__ == "__main__":
