@@ -40,7 +40,7 @@ for stage in "${stages[@]}"; do
   esac
 done
 
-scripts/install_packages.sh bench test || exit 1
+scripts/install_packages.sh bench test image || exit 1
 
 work=$(mktemp -d)
 ahead=  # the stage that is built in the background, and its process

@@ -35,7 +35,7 @@ cache=${TUBESIGHT_IMAGE_CACHE:-build/image}
 export PATH=$PATH:/usr/sbin:/sbin TZ=UTC
 # The latest time that a file of the image bears. Of the recipe, not of any commit: the root is kept longer.
 export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git --no-optional-locks log -1 --format=%ct -- \
-  board/visionbox/image board/visionbox/image.sh)}
+  board/visionbox/image board/visionbox/image.sh 2> /dev/null)}
 
 # Where what begins, in MiB. Before the first partition stand the two copies of the boot count.
 boot_at=16 boot_size=176
@@ -44,12 +44,21 @@ root_a_at=$((boot_at + boot_size))
 root_b_at=$((root_a_at + root_size))
 data_at=$((root_b_at + root_size)) data_size=96
 
+if [ -n "$package" ]; then
+  [ -f "$package" ] || fail "$package: no such package"
+  is=$(dpkg-deb -W --showformat '${Package} ${Architecture}' "$package" 2> /dev/null || true)
+  [ "$is" = "tubesight arm64" ] \
+    || fail "$package: expected the package tubesight of arm64, found ${is:-no Debian package}"
+fi
+# A card's device is no place: it would be replaced by a file of that name.
+[ ! -e "$out" ] || [ -f "$out" ] || fail "$out is no file; docs/board.md tells how an image gets onto a card"
+[ -n "$SOURCE_DATE_EPOCH" ] \
+  || fail "not a checkout with git; set SOURCE_DATE_EPOCH, the time that the image's files bear, in seconds since 1970"
 scripts/install_packages.sh image
 if [ -z "$package" ]; then
   board/visionbox/package.sh arm64 build/packages > /dev/null
   package=$(ls -t build/packages/tubesight_*_arm64.deb | head -n 1)
 fi
-[ -f "$package" ] || fail "$package: no such package"
 
 # --- Debian's packages, and the kernel unpacked
 

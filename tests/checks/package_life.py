@@ -4,8 +4,9 @@
 Usage: package_life.py PACKAGE.deb | package_life.py --self-test
 
 dpkg itself does it, in a throw-away folder that it takes for the system, with the package's own scripts
-and those of Debian that they call. No service manager runs there: that the service starts, and starts
-anew at an upgrade, is seen on a board (tests/system/board/).
+and those of Debian that they call. Who is not root is root in a namespace of his own, which dpkg wants. No
+service manager runs there: that the service starts, and starts anew at an upgrade, is seen on a board
+(tests/system/board/).
 """
 import os
 import pathlib
@@ -21,6 +22,7 @@ KEPT = "var/lib/tubesight/box-000001.y4m"
 ENABLED = "etc/systemd/system/multi-user.target.wants/tubesightd.service"
 MASKED = "etc/systemd/system/tubesightd.service"
 UNIT = "usr/lib/systemd/system/tubesightd.service"
+AS_ROOT = [] if os.geteuid() == 0 else ["unshare", "--map-root-user"]
 # What a purge may leave: the records of dpkg, and the user, who keeps his number.
 LEFT = ("var/lib/dpkg/", "var/log/", "etc/passwd", "etc/shadow", "etc/group", "etc/gshadow", "etc/.pwd.lock")
 
@@ -40,7 +42,7 @@ class System:
     def dpkg(self, *arguments):
         """What went wrong, in its own words; nothing when all is well."""
         done = subprocess.run(
-            ["dpkg", f"--root={self.root}", "--force-script-chrootless", "--force-depends",
+            [*AS_ROOT, "dpkg", f"--root={self.root}", "--force-script-chrootless", "--force-depends",
              "--force-architecture", "--force-unsafe-io", *arguments],
             capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL,
             env={**os.environ, "LC_ALL": "C", "PATH": "/usr/sbin:/usr/bin:/sbin:/bin"})

@@ -33,7 +33,7 @@ def tool(name):
     """The path of a program of the host, also of one that is the administrator's."""
     found = shutil.which(name) or shutil.which(name, path="/usr/sbin:/sbin")
     if found is None:
-        raise BoardError(f"{name} is missing: scripts/install_packages.sh bench test, or"
+        raise BoardError(f"{name} is missing: scripts/install_packages.sh bench test image, or"
                          f" apt-get install {NEEDED.get(name, name)}")
     return found
 

@@ -16,6 +16,7 @@ import zlib
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 IMAGE = ROOT / "board" / "visionbox" / "image"
 FIRST_BOOT = IMAGE / "initramfs" / "first_boot"
+IMAGE_SCRIPT = ROOT / "board" / "visionbox" / "image.sh"
 GROW_DATA = IMAGE / "initramfs" / "grow_data"
 SLOT = IMAGE / "files" / "usr" / "sbin" / "tubesight-slot"
 KEY = "ssh-ed25519 AAAAC3NzaC1lZDI1NTE5AAAAIJx9FZ2o1ZpX7Bq5b7hFv0Xk me@desk"
@@ -309,6 +310,48 @@ class Slots(Folder):
         done = subprocess.run([*shell(SLOT), "use", "c"], capture_output=True, text=True, check=False,
                               env={**os.environ, "TUBESIGHT_BOARD": str(self.folder / "board")})
         self.assertEqual((done.returncode, done.stderr), (1, "tubesight-slot: expected a or b, found 'c'\n"))
+
+
+class ImageScript(Folder):
+    """What it refuses, before anything is installed, fetched or written."""
+
+    def refuses(self, *arguments, status=1, **environment):
+        done = subprocess.run([IMAGE_SCRIPT, *arguments], capture_output=True, text=True, check=False,
+                              stdin=subprocess.DEVNULL, timeout=30, env={**os.environ, **environment})
+        self.assertEqual((done.returncode, done.stdout), (status, ""), done.stderr)
+        return done.stderr
+
+    def package(self, name, architecture):
+        self.write("tree/DEBIAN/control", f"Package: {name}\nVersion: 1\nArchitecture: {architecture}\n"
+                   "Maintainer: x <x@x.example>\nDescription: x\n")
+        made = self.folder / f"{name}_{architecture}.deb"
+        subprocess.run(["dpkg-deb", "--root-owner-group", "-b", self.folder / "tree", made], check=True,
+                       stdout=subprocess.DEVNULL)
+        return made
+
+    def test_wrong_arguments_get_the_usage(self):
+        for arguments in ((), ("--refresh",), ("--package",), ("--package", self.write("x.deb")), ("a.img", "b.img")):
+            with self.subTest(arguments):
+                self.assertIn("usage: ", self.refuses(*arguments, status=2))
+
+    def test_another_package_than_the_boards_is_named(self):
+        out = self.folder / "out.img"
+        self.assertIn("none.deb: no such package", self.refuses("--package", self.folder / "none.deb", out))
+        for name, architecture in (("tubesight", "armhf"), ("tubesight-dbgsym", "arm64")):
+            self.assertIn(f"expected the package tubesight of arm64, found {name} {architecture}",
+                          self.refuses("--package", self.package(name, architecture), out))
+        self.assertIn("found no Debian package", self.refuses("--package", self.write("x.deb", "x"), out))
+        self.assertFalse(out.exists())
+
+    def test_a_device_or_a_folder_is_no_place_for_an_image(self):
+        package = self.package("tubesight", "arm64")
+        for out in (self.folder, pathlib.Path("/dev/null")):
+            self.assertIn(f"{out} is no file", self.refuses("--package", package, out))
+
+    def test_a_time_is_asked_for_where_git_has_none(self):
+        said = self.refuses("--package", self.package("tubesight", "arm64"), self.folder / "out.img",
+                            GIT_DIR=str(self.folder), SOURCE_DATE_EPOCH="")
+        self.assertIn("not a checkout with git; set SOURCE_DATE_EPOCH", said)
 
 
 if __name__ == "__main__":

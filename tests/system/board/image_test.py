@@ -223,6 +223,9 @@ def test_first_boot(disk):
     with disk.data() as ask:
         expect(ask("cat /board/current/hostname"), "Box-7\n", "the box's name")
         expect_in("# by tubesight.txt", ask("cat /settings/box.toml"), "the box's settings")
+        # The service's own folder is the data partition's: it has numbered this boot there.
+        expect_in("boot 1\n", ask("cat /state/boots"), "the boots that the box has counted")
+        expect_in("User:   900 ", ask("stat /state"), "whose the box's folder is")
         machine = ask("cat /board/machine-id").strip()
         expect_in(machine, ask("ls -p /log"), "the journal's folder")
 
@@ -239,6 +242,7 @@ def test_second_boot(disk):
         raise BoardError("tubesight.txt was applied at the second boot, too")
     with disk.data() as ask:
         expect(ask("cat /board/boots"), "2\n", "boots")
+        expect_in("boot 2\n", ask("cat /state/boots"), "the boots that the box has counted")
         # By now, at the latest, it reaches to the card's end, of which 4 MiB stay free.
         expect(size_of_file_system(ask) // MIB, (GROWN - DATA) // MIB - 4, "the data's file system in MiB")
         expect(ask("cat /board/current/hostname"), "Box-7\n", "the box's name")
