@@ -5,7 +5,8 @@ Usage: documents.py ROOT | documents.py --self-test
 
 Links of README.md, CONTRIBUTING.md and docs/ lead to files, and to headings where they name one. Folders
 and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
-`drivers/<name>/` for one driver at least. Tests that docs/faults.md names, `Subject.Claim`, are there. No document holds the marks of a merge that nobody finished.
+`drivers/<name>/` for one driver at least. Tests that docs/faults.md names are there: `Subject.Claim`, and
+`Class.step` of the emulated board's. No document holds the marks of a merge that nobody finished.
 """
 import pathlib
 import re
@@ -18,8 +19,9 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
 PATH = re.compile(r"^(?:\./)?([\w.<>-]+/[\w./<>-]*|[\w-]+\.(?:cpp|h|py|md|cmake|sh|json|txt|toml|1))$")
 FENCE = re.compile(r"^```.*?^```$", re.DOTALL | re.MULTILINE)
-TEST = re.compile(r"^([A-Z]\w*\.[A-Z]\w+)$")
+TEST = re.compile(r"^([A-Z]\w*\.[A-Za-z]\w+)$")
 MADE = re.compile(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
+STEP = re.compile(r"^(?:class (\w+)|    def ([a-z]\w*)\()", re.MULTILINE)
 UNMERGED = re.compile(r"^(<{7}|={7}|>{7})( |$)")
 # Made by a build, or a part of C++ or of a command.
 NOT_HERE = ("build/",)
@@ -62,9 +64,22 @@ def lines_of(path):
     return FENCE.sub(lambda match: "\n" * match.group(0).count("\n"), text).splitlines()
 
 
+def steps_of(text):
+    """`Class.step` of each method."""
+    found, subject = set(), ""
+    for begun, step in STEP.findall(text):
+        subject = begun or subject
+        if step:
+            found.add(f"{subject}.{step}")
+    return found
+
+
 def tests_of(root):
-    return {f"{subject}.{claim}" for path in (root / "tests").rglob("*_test.cpp")
-            for subject, claim in MADE.findall(path.read_text(encoding="utf-8"))}
+    found = {f"{subject}.{claim}" for path in (root / "tests").rglob("*_test.cpp")
+             for subject, claim in MADE.findall(path.read_text(encoding="utf-8"))}
+    for path in (root / "tests" / "system" / "board").glob("*_test.py"):
+        found |= steps_of(path.read_text(encoding="utf-8"))
+    return found
 
 
 def check(root):
@@ -97,8 +112,10 @@ def self_test():
                            "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
                            "`board/<name>/`\n`core/x/y.cpp/`\n",
         "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n",
-        "docs/faults.md": "`A.IsThere` `core/x` `a.B`\n`A.IsGone`\n",
+        "docs/faults.md": "`A.IsThere` `core/x` `a.B` `B.test_is`\n`A.IsGone`\n`A.test_is`\n",
         "tests/a_test.cpp": "TEST_F(A,\n       IsThere) {}\n// TEST(A, IsGone)\n",
+        "tests/system/board/b_test.py": "class A:\n    def test_was(self):\n        pass\n\n\n"
+                                        "class B:\n    def test_is(self):\n        pass\n",
         "core/x/y.cpp": "",
         "drivers/v/y.cpp": "",
         "go.sh": "",
@@ -110,7 +127,8 @@ def self_test():
     expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
                 "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`",
-                "docs/a.md:2: a merge", "docs/faults.md:2: `A.IsGone`"]
+                "docs/a.md:2: a merge", "docs/faults.md:2: `A.IsGone`",
+                "docs/faults.md:3: `A.test_is`"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     return report("documents --self-test",

@@ -253,6 +253,20 @@ class Robot:
 
 # The board with the box
 
+def programs(build, folder, *names):
+    """Programs of an arm64 build, stripped in `folder`, with their libraries: {path on the board: path here}."""
+    found = {}
+    for name in names:
+        whole = build / "bin" / name
+        if not whole.exists():
+            raise BoardError(f"{whole} is missing: cmake --build --preset visionbox-qemu")
+        found[f"bin/{name}"] = folder / name
+        board_parts.run("aarch64-linux-gnu-strip", "-o", folder / name, whole)
+    roots = ("/usr/aarch64-linux-gnu/lib",
+             build.parent / "sysroot-arm64" / "usr" / "lib" / "aarch64-linux-gnu")
+    return found | board_parts.libraries(found.values(), roots)
+
+
 class Box:
     """A board that has the product, and what a test asks of it."""
 
@@ -263,16 +277,7 @@ class Box:
         self.share.mkdir()
         for name in ("r.session.toml", "r.y4m"):
             os.link(folder / name, self.share / name)
-        programs = {}
-        for name in ("tubesightd", "tubesightctl", "board_camera"):
-            whole = build / "bin" / name
-            if not whole.exists():
-                raise BoardError(f"{whole} is missing: cmake --build --preset visionbox-qemu")
-            programs[f"bin/{name}"] = folder / name
-            board_parts.run("aarch64-linux-gnu-strip", "-o", folder / name, whole)
-        roots = ("/usr/aarch64-linux-gnu/lib",
-                 build.parent / "sysroot-arm64" / "usr" / "lib" / "aarch64-linux-gnu")
-        files = programs | board_parts.libraries(programs.values(), roots)
+        files = programs(build, folder, "tubesightd", "tubesightctl", "board_camera")
         modules = more.pop("modules", ())
         initramfs = board_parts.initramfs(folder / "initramfs", (VIVID, *modules), files)
         self.board = Board(initramfs=initramfs, share=self.share, steady=True,
