@@ -5,7 +5,7 @@
 #
 # FOLDER (build/packages without it) then has tubesight_VERSION_ARCHITECTURE.deb and, apart, its debug
 # symbols. Missing compilers are installed, the board's libraries fetched into build/. Two builds of one
-# commit are the same to the byte, in whatever folders they were made.
+# commit are to be the same to the byte, in whatever folders they were made.
 set -euo pipefail
 
 architecture=${1:-}

@@ -87,8 +87,8 @@ def self_test():
         planted = {"bin/tubesight": "#!/bin/sh\nexit 3\n", "share/man/man1/tubesight.1": "",
                    "share/doc/tubesight/README.md": f"see {root / 'build'}\n",
                    "share/doc/tubesight/LICENSE": "", "share/doc/tubesight/docs/a.md": "",
-                   "lib/systemd/system/tubesightd.service": "",
-                   "share/more": ""}
+                   "lib/systemd/system/tubesightd.service": "", "lib/sysusers.d/tubesight.conf": "",
+                   "lib/udev/rules.d/60-tubesight.rules": "", "share/more": ""}
         for name in PROGRAMS[1:]:
             planted.update({f"bin/{name}": f"#!/bin/sh\necho {name} 1\n",
                             f"share/man/man1/{name}.1": "",
