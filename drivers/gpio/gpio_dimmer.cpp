@@ -24,10 +24,10 @@ Error error_of(int status) { return status == -ENODEV ? Error::kDisconnected : E
 /// Goes off once after `ns`, and then each `every_ns` unless that is 0.
 void set_timer(int timer, std::int64_t ns, std::int64_t every_ns) {
   itimerspec spec{};
-  spec.it_value.tv_sec = ns / kSecond_ns;
-  spec.it_value.tv_nsec = ns % kSecond_ns;
-  spec.it_interval.tv_sec = every_ns / kSecond_ns;
-  spec.it_interval.tv_nsec = every_ns % kSecond_ns;
+  spec.it_value.tv_sec = static_cast<time_t>(ns / kSecond_ns);
+  spec.it_value.tv_nsec = static_cast<long>(ns % kSecond_ns);
+  spec.it_interval.tv_sec = static_cast<time_t>(every_ns / kSecond_ns);
+  spec.it_interval.tv_nsec = static_cast<long>(every_ns % kSecond_ns);
   timerfd_settime(timer, 0, &spec, nullptr);
 }
 

@@ -27,8 +27,8 @@ class Timer {
   void set(std::chrono::nanoseconds from_now) const {
     constexpr std::int64_t kSecond = 1'000'000'000;
     itimerspec spec{};
-    spec.it_value.tv_sec = from_now.count() / kSecond;
-    spec.it_value.tv_nsec = from_now.count() % kSecond;
+    spec.it_value.tv_sec = static_cast<time_t>(from_now.count() / kSecond);
+    spec.it_value.tv_nsec = static_cast<long>(from_now.count() % kSecond);
     timerfd_settime(descriptor_, 0, &spec, nullptr);
   }
 
