@@ -17,5 +17,7 @@ set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 
-# Taken by every program that the build or ctest starts.
-set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm-static -L /usr/arm-linux-gnueabihf)
+# Taken by every program that the build or ctest starts. A program's own path to the libraries holds for
+# those that it names, not for what these need in turn.
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-arm-static -L /usr/arm-linux-gnueabihf
+  -E LD_LIBRARY_PATH=${CMAKE_FIND_ROOT_PATH}/usr/lib/arm-linux-gnueabihf)
