@@ -44,7 +44,7 @@ void WriteMarks::begin(const AgreedFormat& agreed, std::int32_t width_px) {
 /// Packets are of some lines, and may be lost in the middle of one: marks stand everywhere.
 std::ptrdiff_t WriteMarks::place_in(std::int32_t line) const {
   return static_cast<std::ptrdiff_t>(line) * agreed_.stride_bytes + edge_bytes_ +
-         line * kStride % places_;
+         static_cast<std::ptrdiff_t>(line * kStride % places_);
 }
 
 void WriteMarks::lay(std::byte* picture) const {
