@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fnv1a.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
 #include "core/base/trigonometry.h"
@@ -131,28 +132,7 @@ std::uint8_t grey_at(const std::array<double, 2>& point_mm) {
   return static_cast<std::uint8_t>(kDark + (kPlate - kDark) * s * s * (3.0 - 2.0 * s) + 0.5);
 }
 
-/// FNV-1a of 64 bits.
-class Digest {
- public:
-  void add(std::span<const std::uint8_t> bytes) {
-    for (const std::uint8_t byte : bytes) {
-      value_ = (value_ ^ byte) * 1099511628211U;
-    }
-  }
-  void add(std::int64_t number) {
-    std::array<std::uint8_t, 8> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i) {
-      bytes[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (8 * i));
-    }
-    add(bytes);
-  }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037U;
-};
-
-void add(Digest& digest, const core::Sighting& s) {
+void add(core::Fnv1a& digest, const core::Sighting& s) {
   for (const std::int64_t number : {static_cast<std::int64_t>(s.state),
                                     static_cast<std::int64_t>(s.reason),
                                     std::int64_t{s.judged},
@@ -258,8 +238,8 @@ class GoldenRun {
   std::unique_ptr<core::session::Output> output_ = std::make_unique<core::session::Output>();
   std::vector<std::uint8_t> frame_ =
       std::vector<std::uint8_t>(static_cast<std::size_t>(kWidth_px) * kHeight_px);
-  Digest pictures_;
-  Digest sightings_;
+  core::Fnv1a pictures_;
+  core::Fnv1a sightings_;
   bool configured_ = false;
 };
 

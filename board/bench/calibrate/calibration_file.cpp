@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "board/bench/output/text_output.h"
+#include "core/base/fnv1a.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/text_files.h"
@@ -21,14 +22,12 @@
 namespace tubesight::board {
 namespace {
 
-/// FNV-1a of a text, for an id that follows the parameters.
+/// For an id that follows the parameters.
 std::string digest_of(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char character : text) {
-    hash = (hash ^ static_cast<std::uint8_t>(character)) * 1099511628211ULL;
-  }
+  core::Fnv1a hash;
+  hash.add(text);
   std::array<char, 17> hex{};
-  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash));
+  std::snprintf(hex.data(), hex.size(), "%016llx", static_cast<unsigned long long>(hash.value()));
   return hex.data();
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "board/bench/campaign/ordered_jobs.h"
+#include "core/base/fnv1a.h"
 
 namespace tubesight::board::campaign {
 namespace {
@@ -102,19 +103,17 @@ std::string run_campaign(const CampaignPlan& plan, Progress& progress,
 }
 
 std::string box_identity(const std::string& version) {
-  // FNV-1a over the running program: exactly this box, this renderer and this drawing of moves.
+  // Of the running program: exactly this box, this renderer and this drawing of moves.
   std::ifstream program("/proc/self/exe", std::ios::binary);
   std::vector<char> bytes(1U << 20U);
-  std::uint64_t digest = 14695981039346656037ULL;
+  core::Fnv1a digest;
   while (program.good()) {
     program.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    for (std::streamsize i = 0; i < program.gcount(); ++i) {
-      const auto byte = static_cast<std::uint8_t>(bytes[static_cast<std::size_t>(i)]);
-      digest = (digest ^ byte) * 1099511628211ULL;
-    }
+    digest.add(std::string_view(bytes.data(), static_cast<std::size_t>(program.gcount())));
   }
   std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(digest));
+  std::snprintf(text.data(), text.size(), "%016llx",
+                static_cast<unsigned long long>(digest.value()));
   return version + "-" + text.data();
 }
 

@@ -5,6 +5,7 @@
 
 #include "board/bench/campaign/random_parts.h"
 #include "board/bench/script/simulated_box.h"
+#include "core/base/fnv1a.h"
 #include "core/tracking/margin_policy.h"
 
 namespace tubesight::board::campaign {
@@ -21,12 +22,10 @@ bool closed_untold(const drivers::Scenario& scenario, const core::rendering::Nea
   return plug && std::find(plugged.begin(), plugged.end(), nearest.address) == plugged.end();
 }
 
-/// FNV-1a over what matters of the answers.
+/// Over what matters of the answers.
 class Digest {
  public:
-  void add(std::int64_t value) {
-    value_ = (value_ ^ static_cast<std::uint64_t>(value)) * 1099511628211ULL;
-  }
+  void add(std::int64_t value) { digest_.step(static_cast<std::uint64_t>(value)); }
   void add(const core::Sighting& sighting) {
     add(static_cast<std::int64_t>(sighting.state));
     add(static_cast<std::int64_t>(sighting.reason));
@@ -37,10 +36,10 @@ class Digest {
     add(sighting.aligned ? 1 : 0);
     add(sighting.margin_permyriad);
   }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
+  [[nodiscard]] std::uint64_t value() const { return digest_.value(); }
 
  private:
-  std::uint64_t value_ = 14695981039346656037ULL;
+  core::Fnv1a digest_;
 };
 
 }  // namespace

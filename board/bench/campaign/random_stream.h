@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "board/bench/campaign/random_source.h"
+#include "core/base/fnv1a.h"
 
 namespace tubesight::board::campaign {
 
@@ -11,11 +12,9 @@ namespace tubesight::board::campaign {
 /// that what was drawn before it came stays as it was.
 [[nodiscard]] inline RandomSource random_stream(std::uint64_t seed, std::int64_t move,
                                                 std::string_view kind, std::uint64_t attempt = 0) {
-  std::uint64_t topic = 14695981039346656037ULL;  // FNV-1a
-  for (const char letter : kind) {
-    topic = (topic ^ static_cast<std::uint8_t>(letter)) * 1099511628211ULL;
-  }
-  return {seed, move, topic + attempt};
+  core::Fnv1a topic;
+  topic.add(kind);
+  return {seed, move, topic.value() + attempt};
 }
 
 }  // namespace tubesight::board::campaign

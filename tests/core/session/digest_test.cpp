@@ -6,20 +6,15 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/fnv1a.h"
 #include "tests/core/session/sheet_run.h"
 
 namespace tubesight::core::session {
 namespace {
 
-// FNV-1a, 64 bits.
 class Digest {
  public:
-  void add(std::int64_t value) {
-    for (int byte = 0; byte < 8; ++byte) {
-      value_ ^= (static_cast<std::uint64_t>(value) >> (8 * byte)) & 0xFFU;
-      value_ *= 1099511628211ULL;
-    }
-  }
+  void add(std::int64_t value) { digest_.add(value); }
   void add(TubeAddress tube) {
     add(tube.row);
     add(tube.column);
@@ -57,10 +52,10 @@ class Digest {
       add(tube.plug ? 1 : 0);
     }
   }
-  [[nodiscard]] std::uint64_t value() const { return value_; }
+  [[nodiscard]] std::uint64_t value() const { return digest_.value(); }
 
  private:
-  std::uint64_t value_ = 14695981039346656037ULL;
+  Fnv1a digest_;
 };
 
 struct Digests {

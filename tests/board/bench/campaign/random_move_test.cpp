@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "board/bench/campaign/random_parts.h"
+#include "core/base/fnv1a.h"
 #include "drivers/scenario/scenario_text.h"
 
 namespace tubesight::board::campaign {
@@ -35,17 +36,15 @@ TEST_F(RandomMove, IsTheSameWhateverWasDrawnBefore) {
 }
 
 // Progress of two designs must not be put together. A change of what is drawn changes the digest:
-// give kDesign a new name then, and write both here. FNV-1a. Since the text holds every key it is
+// give kDesign a new name then, and write both here. Since the text holds every key it is
 // another digest of the same moves: of the 96 texts nothing but the added lines differs.
 TEST_F(RandomMove, IsOfTheDesignThatItsNameSays) {
-  std::uint64_t digest = 14695981039346656037ULL;
+  core::Fnv1a digest;
   for (std::int64_t move = 0; move < kStrata; ++move) {
-    for (const char letter : drivers::scenario_text(make(move), "")) {
-      digest = (digest ^ static_cast<std::uint8_t>(letter)) * 1099511628211ULL;
-    }
+    digest.add(drivers::scenario_text(make(move), ""));
   }
   EXPECT_EQ(std::string(kDesign), "design-4");
-  EXPECT_EQ(digest, 0xde8ac55ff981aa69ULL);
+  EXPECT_EQ(digest.value(), 0xde8ac55ff981aa69ULL);
 }
 
 TEST_F(RandomMove, IsOfItsStratum) {
