@@ -29,12 +29,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kLong = seconds(20);
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// A request of Modbus TCP to unit 1.
 std::string tcp_frame(const Bytes& pdu) {
   std::string frame{0, 1, 0, 0, 0, static_cast<char>(pdu.size() + 1), 1};

@@ -10,6 +10,13 @@
 
 namespace tubesight::tests {
 
+/// For what comes at once on an idle machine, and must not fail on a busy one.
+inline constexpr std::chrono::milliseconds kLong = std::chrono::seconds(20);
+
+[[nodiscard]] inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// What a run of a program left.
 struct Answered {
   int status = -1;  ///< exit status; -1 when it was ended by a signal

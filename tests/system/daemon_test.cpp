@@ -21,12 +21,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kLong = seconds(20);
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(DaemonSystem, TracksByItsScriptAndTellsHowItIsDoing) {
   Daemon box;
   box.write_settings("script = true\n");

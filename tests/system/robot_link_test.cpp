@@ -27,14 +27,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr milliseconds kLong = seconds(20);
 constexpr const char* kExamples = TUBESIGHT_SOURCE_DIR "/docs/examples/";
 
 constexpr const char* kLineSettings = ",115200,N";
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// What the robot program does in so many seconds, asking 20 times each.
 Answered run_robot(const std::string& line, const std::string& for_s) {

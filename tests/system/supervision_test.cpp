@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -11,6 +10,7 @@
 #include <sys/ptrace.h>
 #include <sys/wait.h>
 
+#include "tests/support/environment_variable.h"
 #include "tests/support/notify_socket.h"
 #include "tests/system/daemon.h"
 
@@ -19,26 +19,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-constexpr milliseconds kLong = seconds(20);
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-/// A variable of the environment of the daemons that are started meanwhile.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    setenv(name, value.c_str(), 1);
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-  ~Variable() { unsetenv(name_); }
-
- private:
-  const char* name_;
-};
 
 /// A thread of another process, found by its name, which does nothing as long as this lives.
 class FrozenThread {
@@ -95,8 +75,8 @@ class Supervision : public testing::Test {
 
   Daemon box_;
   support::NotifySocket manager_{box_.folder().path("notify")};
-  Variable socket_{"NOTIFY_SOCKET", manager_.name()};
-  Variable watchdog_{"WATCHDOG_USEC", "2000000"};
+  support::EnvironmentVariable socket_{"NOTIFY_SOCKET", manager_.name()};
+  support::EnvironmentVariable watchdog_{"WATCHDOG_USEC", "2000000"};
 };
 
 TEST_F(Supervision, SaysWhenItIsReadyFeedsAndSaysWhenItStops) {
@@ -166,7 +146,7 @@ TEST_F(Supervision, AStuckLinkStarvesTheManager) {
 TEST_F(Supervision, EachWayToDieLeavesABoxThatWaitsAndIsCounted) {
   // Kept in a folder of the test's, as systemd names one to a service.
   std::filesystem::create_directory(box_.folder().path("state"));
-  const Variable state("STATE_DIRECTORY", box_.folder().path("state"));
+  const support::EnvironmentVariable state("STATE_DIRECTORY", box_.folder().path("state"));
   box_.write_settings("script = true\n");
   int start = 0;
   for (const int signal : {SIGKILL, SIGABRT, SIGSEGV}) {
@@ -189,7 +169,7 @@ TEST_F(Supervision, EachWayToDieLeavesABoxThatWaitsAndIsCounted) {
 }
 
 TEST_F(Supervision, TestsItselfAtTheStartAndSaysWhatIsBad) {
-  const Variable state("STATE_DIRECTORY", box_.folder().path("none"));
+  const support::EnvironmentVariable state("STATE_DIRECTORY", box_.folder().path("none"));
   box_.write_settings(
       "[realtime]\npriority = 0\nlock_memory = false\n"
       "[record]\nfolder = \"kept\"\nmemory_mb = 64\n");

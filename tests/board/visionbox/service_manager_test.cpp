@@ -1,13 +1,13 @@
 #include "board/visionbox/service_manager.h"
 
 #include <chrono>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/support/environment_variable.h"
 #include "tests/support/notify_socket.h"
 #include "tests/support/temporary_folder.h"
 
@@ -106,38 +106,24 @@ TEST_F(ServiceManagerTest, AnAddressThatIsNoneIsTold) {
   }
 }
 
-/// A variable of the environment for as long as a test takes.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    setenv(name, value.c_str(), 1);
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-  ~Variable() { unsetenv(name_); }
-
- private:
-  const char* name_;
-};
-
 TEST(ServiceEnvironment, IsReadAndANumberForAnotherProcessIsNot) {
-  const Variable socket("NOTIFY_SOCKET", "@box");
-  const Variable watchdog("WATCHDOG_USEC", "5000000");
-  const Variable folder("STATE_DIRECTORY", "/var/lib/tubesight:/var/lib/other");
+  const support::EnvironmentVariable socket("NOTIFY_SOCKET", "@box");
+  const support::EnvironmentVariable watchdog("WATCHDOG_USEC", "5000000");
+  const support::EnvironmentVariable folder("STATE_DIRECTORY", "/var/lib/tubesight:/var/lib/other");
   EXPECT_EQ(service_environment().socket, "@box");
   EXPECT_EQ(service_environment().watchdog, microseconds(5'000'000));
   EXPECT_EQ(service_environment().state_folder, "/var/lib/tubesight");
   {
-    const Variable own("WATCHDOG_PID", std::to_string(getpid()));
+    const support::EnvironmentVariable own("WATCHDOG_PID", std::to_string(getpid()));
     EXPECT_EQ(service_environment().watchdog, microseconds(5'000'000));
   }
-  const Variable other("WATCHDOG_PID", std::to_string(getpid() + 1));
+  const support::EnvironmentVariable other("WATCHDOG_PID", std::to_string(getpid() + 1));
   EXPECT_EQ(service_environment().watchdog.count(), 0);
 }
 
 TEST(ServiceEnvironment, WhatIsNoNumberIsNone) {
   for (const char* text : {"", "soon", "-5", "0", "5s", "99999999999999999999"}) {
-    const Variable watchdog("WATCHDOG_USEC", text);
+    const support::EnvironmentVariable watchdog("WATCHDOG_USEC", text);
     EXPECT_EQ(service_environment().watchdog.count(), 0) << text;
   }
 }
