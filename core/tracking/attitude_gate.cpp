@@ -42,22 +42,21 @@ TurnParts<S> parts_of(const SheetPose<S>& before, const SheetPose<S>& after) {
           plane_length(Vector2<Mm<S>>{along(after.x_axis), along(after.y_axis)})};
 }
 
-// Under a third of the share that the last field's tube-ends had.
+}  // namespace
+
 template <Scalar S>
-bool collapsed(const Observation<S>& seen, const Observation<S>& last) {
+bool few_are_left(const Observation<S>& seen, const Observation<S>& last, std::int32_t part) {
   constexpr std::int32_t kFew = 6;  // looked at: a share of so few says nothing
   return seen.looked_at >= kFew && last.looked_at >= kFew &&
-         3 * seen.fit.used * last.looked_at < last.fit.used * seen.looked_at;
+         part * seen.fit.used * last.looked_at < last.fit.used * seen.looked_at;
 }
-
-}  // namespace
 
 template <Scalar S>
 Reason refuses_attitude(const TrackingModel<S>& model, const Observation<S>& seen,
                         const SheetPose<S>& predicted, Mm<S> predicted_height_mm,
                         const Observation<S>& last, const Motion<S>& motion, Unit<S> span_s) {
   using M = Mm<S>;
-  if (collapsed<S>(seen, last)) {
+  if (few_are_left<S>(seen, last, 3)) {
     return Reason::kNoTubes;
   }
   const M span = convert<M>(span_s);
@@ -97,9 +96,10 @@ Reason refuses_attitude(const TrackingModel<S>& model, const Observation<S>& see
   return jumped ? Reason::kJump : Reason::kNone;
 }
 
-#define TUBESIGHT_INSTANTIATE(S)                                                         \
-  template Reason refuses_attitude<S>(const TrackingModel<S>&, const Observation<S>&,    \
-                                      const SheetPose<S>&, Mm<S>, const Observation<S>&, \
+#define TUBESIGHT_INSTANTIATE(S)                                                             \
+  template bool few_are_left<S>(const Observation<S>&, const Observation<S>&, std::int32_t); \
+  template Reason refuses_attitude<S>(const TrackingModel<S>&, const Observation<S>&,        \
+                                      const SheetPose<S>&, Mm<S>, const Observation<S>&,     \
                                       const Motion<S>&, Unit<S>);
 TUBESIGHT_FOR_EACH_SCALAR(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/base/scalar.h"
 #include "core/base/sighting.h"
 #include "core/tracking/motion.h"
@@ -8,6 +10,13 @@
 #include "core/tracking/tracking_model.h"
 
 namespace tubesight::core::tracking {
+
+/// Whether of the tube-ends looked at so few agree that it is less than one `part`-th of the share
+/// that did in the last good field; false where fewer than six were
+/// looked at in either.
+template <Scalar S>
+[[nodiscard]] bool few_are_left(const Observation<S>& seen, const Observation<S>& last,
+                                std::int32_t part);
 
 /// The gate for what ToolGate leaves of the six numbers of a pose: height, heading and lean.
 ///

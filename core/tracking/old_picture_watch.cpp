@@ -82,21 +82,35 @@ void OldPictureWatch::believe(Rest rest) {
   constexpr std::int32_t kRested = 3;
   rested_ = rest != Rest::kNone ? rested_ + 1 : 0;
   still_ = rest == Rest::kStill ? still_ + 1 : 0;
-  if (rested_ < kRested || likeness_.compared < kEnough || quiet_) {
+  if (rested_ < kRested || quiet_) {
+    unequal_ = 0;
     return;
   }
   if (source_ == Source::kUnknown) {
-    if (4 * likeness_.equal >= likeness_.compared) {
-      source_ = Source::kRepeating;
-    } else if (likeness_.equal == 0 && likeness_.middle_noise >= kLeastNoise) {
-      source_ = Source::kNoisy;
-    }
+    learn_source();
   }
-  if (source_ == Source::kNoisy && 16 * likeness_.equal <= likeness_.compared) {
+  if (likeness_.compared >= kEnough && source_ == Source::kNoisy &&
+      16 * likeness_.equal <= likeness_.compared) {
     most_equal_ = std::max(most_equal_, likeness_.equal);
     if (still_ >= kRested) {
       learn_noise();
     }
+  }
+}
+
+// Where little of the picture is grey, as when the tool is docked and the plate above it lies in
+// the dark, some fields together show what one of them does not. Two fields' worth of blocks is
+// asked of them, as they are the same places over and over. Too few in each show nothing: a
+// compressor may happen to send just these anew.
+void OldPictureWatch::learn_source() {
+  constexpr std::int32_t kFewest = kEnough / 2;
+  const std::int32_t compared = likeness_.compared;
+  const bool all_new = likeness_.equal == 0 && likeness_.middle_noise >= kLeastNoise;
+  unequal_ = all_new && compared >= kFewest ? std::min(unequal_ + compared, kMostUnequal) : 0;
+  if (compared >= kEnough && 4 * likeness_.equal >= compared) {
+    source_ = Source::kRepeating;
+  } else if ((all_new && compared >= kEnough) || unequal_ >= 2 * kEnough) {
+    source_ = Source::kNoisy;
   }
 }
 

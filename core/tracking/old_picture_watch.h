@@ -49,13 +49,14 @@ class OldPictureWatch {
   /// The members of the state; see core/base/state_stream.h.
   template <typename Self, typename Stream>
   static void transfer(Self& self, Stream& stream) {
-    auto& [memory, source, quiet, likeness, rested, still, most_equal, learnt, noise, grey,
+    auto& [memory, source, quiet, likeness, rested, still, unequal, most_equal, learnt, noise, grey,
            contrast, aged] = self;
     stream(memory);
     stream.choice(source, Source::kRepeating);
     stream(quiet, likeness);
     stream.number(rested, 0, 1 << 30);
     stream.number(still, 0, 1 << 30);
+    stream.number(unequal, 0, kMostUnequal);
     stream.number(most_equal, 0, 1 << 10);
     stream.number(learnt, 0, kMostLearnt);
     stream.number(noise, 0, 1 << 28);
@@ -66,6 +67,7 @@ class OldPictureWatch {
 
  private:
   static constexpr std::int32_t kMostLearnt = 16;  ///< fields that the usual noise is the mean of
+  static constexpr std::int32_t kMostUnequal = 256;
 
   /// What was seen since a picture was old.
   enum class Aged : std::uint8_t {
@@ -77,6 +79,7 @@ class OldPictureWatch {
 
   [[nodiscard]] std::int32_t expected_noise() const;
   [[nodiscard]] bool is_quiet() const;
+  void learn_source();
   void learn_noise();
   void age(bool old, bool standing);
 
@@ -86,6 +89,7 @@ class OldPictureWatch {
   PictureLikeness likeness_{};   ///< of the last field that was looked at
   std::int32_t rested_ = 0;      ///< believed fields in a row with the tool at rest, or nearly
   std::int32_t still_ = 0;       ///< of those, the last ones that were no less than still
+  std::int32_t unequal_ = 0;     ///< blocks looked at in this rest, as long as none was equal
   std::int32_t most_equal_ = 0;  ///< blocks of a noisy picture that were equal by chance
   std::int32_t learnt_ = 0;      ///< fields that the two below are learnt from
   std::int32_t noise_q4_ = 0;    ///< of a block at rest, as in PictureLikeness

@@ -42,13 +42,14 @@ Reason ToolGate<S>::why_exceeded() const {
 }
 
 template <Scalar S>
-Reason ToolGate<S>::refuses(const Vector2<Mm<S>>& seen, Mm<S> deviation_mm,
+Reason ToolGate<S>::refuses(const Vector2<Mm<S>>& seen, Mm<S> deviation_mm, bool halved,
                             const Vector2<Mm<S>>& expected, const Vector2<Mm<S>>& last,
                             Unit<S> span_s) const {
   using M = Mm<S>;
   const M noise = three(deviation_mm);
+  const M reach = halved ? times(believed_mm(), constant<M>(0.5)) : believed_mm();
   // |seen - expected| > reach + 3 sigma
-  if (plane_length(seen - expected) > believed_mm() + noise) {
+  if (plane_length(seen - expected) > reach + noise) {
     return Reason::kJump;
   }
   // |seen - last| > 1.25 v dt + 3 sigma. A quarter above the limit: the robot's own control may

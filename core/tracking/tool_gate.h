@@ -40,8 +40,11 @@ class ToolGate {
   [[nodiscard]] Reason why_exceeded() const;
 
   /// Why a field that shows the tool at `seen` is not believed: kJump farther from `expected` than
-  /// the gate is wide, kSpeed faster from `last` than anything moves, or kNone.
-  [[nodiscard]] Reason refuses(const Vector2<Mm<S>>& seen, Mm<S> deviation_mm,
+  /// the gate is wide, kSpeed faster from `last` than anything moves, or kNone. `halved`: half of
+  /// the tube-ends are gone that the last field agreed on. That alone is a shadow or a cover; with
+  /// a motion beyond half of what [motion] allows it is another place, or a picture smeared on the
+  /// way.
+  [[nodiscard]] Reason refuses(const Vector2<Mm<S>>& seen, Mm<S> deviation_mm, bool halved,
                                const Vector2<Mm<S>>& expected, const Vector2<Mm<S>>& last,
                                Unit<S> span_s) const;
 

@@ -148,7 +148,8 @@ Reason Tracker<S, Margin>::gate(const Observation<S>& seen, const SheetPose<S>& 
     return Reason::kJump;
   }
   const Reason place =
-      gate_.refuses(seen.tool.local, seen.deviation_mm, expected->local, good_.tool.local, span_s);
+      gate_.refuses(seen.tool.local, seen.deviation_mm, few_are_left<S>(seen, good_, 2),
+                    expected->local, good_.tool.local, span_s);
   return place != Reason::kNone ? place
                                 : refuses_attitude<S>(*model_, seen, predicted, expected->height_mm,
                                                       good_, motion_, span_s);

@@ -124,8 +124,10 @@ TYPED_TEST(AttitudeGateOf, DoubtsAPictureWhoseTubeEndsAreSuddenlyGone) {
   EXPECT_EQ(refused(2), Reason::kNoTubes);
   EXPECT_EQ(refused(8), Reason::kNoTubes);
   EXPECT_EQ(refused(9), Reason::kNone);
+  EXPECT_TRUE(few_are_left<TypeParam>(seen, this->last_, 2)) << "nor half";
   seen.looked_at = 5;
   EXPECT_EQ(refused(1), Reason::kNone) << "of so few a share says nothing";
+  EXPECT_FALSE(few_are_left<TypeParam>(seen, this->last_, 2));
 }
 
 }  // namespace

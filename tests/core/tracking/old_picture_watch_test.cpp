@@ -25,6 +25,12 @@ class OldPictureWatchOf : public NoisyPicture {
     field.pixels = view(field.parity);
     return watch_.shows_old(field, kWindow, moves);
   }
+  /// A picture that is dark but for so many of its ten lines of blocks, seven each.
+  bool look_at_lines(std::uint32_t seed, std::int32_t lines) {
+    draw(seed);
+    std::fill(pixels_.begin() + (20 + 18 * lines) * kWidth, pixels_.end(), std::uint8_t{10});
+    return show();
+  }
   /// Shows and believes fields at rest with the noises of these seeds.
   void rest(std::uint32_t first, std::uint32_t fields) {
     for (std::uint32_t seed = first; seed < first + fields; ++seed) {
@@ -211,6 +217,30 @@ TEST_F(OldPictureWatchOf, LearnsOnlyFromThreeFieldsAtRestInARow) {
   EXPECT_FALSE(look(5)) << "equal, but nothing has shown noise yet";
   rest(6, 3);
   EXPECT_TRUE(look(8));
+}
+
+// A docked tool sees next to nothing but dark plate.
+TEST_F(OldPictureWatchOf, LearnsFromSeveralFieldsOfWhichEachShowsLittle) {
+  const auto rest_at = [&](std::uint32_t fields, std::int32_t lines) {
+    watch_.begin();
+    for (std::uint32_t seed = 1; seed <= fields; ++seed) {
+      EXPECT_FALSE(look_at_lines(seed, lines));
+      watch_.believe(Rest::kStill);
+    }
+    return watch_.source();
+  };
+  EXPECT_EQ(rest_at(4, 2), Source::kUnknown) << "14 blocks, compared at rest twice";
+  EXPECT_EQ(rest_at(5, 2), Source::kNoisy);
+  EXPECT_TRUE(look_at_lines(5, 2)) << "the store stops";
+  EXPECT_EQ(rest_at(40, 1), Source::kUnknown) << "seven blocks may be all that was sent anew";
+}
+
+TEST_F(OldPictureWatchOf, LearnsNothingFromLittleThatComesAgainNowAndThen) {
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    EXPECT_FALSE(look_at_lines(i / 2, 2));
+    watch_.believe(Rest::kStill);
+  }
+  EXPECT_EQ(watch_.source(), Source::kUnknown);
 }
 
 // The plate's grain moves a little, which looks like noise that live pictures lack later.

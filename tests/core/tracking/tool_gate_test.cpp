@@ -23,8 +23,9 @@ class ToolGateOf : public ::testing::Test {
   void open(double span_s, bool contradicted = false) {
     gate_->open(motion_, Unit<S>(span_s), contradicted);
   }
-  [[nodiscard]] Reason refuses(double seen, double expected, double last, double span_s) const {
-    return gate_->refuses({Mm<S>(seen), Mm<S>{}}, Mm<S>(0.125), {Mm<S>(expected), Mm<S>{}},
+  [[nodiscard]] Reason refuses(double seen, double expected, double last, double span_s,
+                               bool halved = false) const {
+    return gate_->refuses({Mm<S>(seen), Mm<S>{}}, Mm<S>(0.125), halved, {Mm<S>(expected), Mm<S>{}},
                           {Mm<S>(last), Mm<S>{}}, Unit<S>(span_s));
   }
 
@@ -71,6 +72,13 @@ TYPED_TEST(ToolGateOf, RefusesAPlaceFartherThanReachAndThreeDeviations) {
   EXPECT_EQ(this->refuses(4.0 + 1.56, 4.0, 4.0, 0.02), Reason::kNone);
   EXPECT_EQ(this->refuses(4.0 + 1.59, 4.0, 4.0, 0.02), Reason::kJump);
   EXPECT_EQ(this->refuses(4.0 - 1.59, 4.0, 4.0, 0.02), Reason::kJump);
+}
+
+TYPED_TEST(ToolGateOf, IsHalfAsWideForAPictureThatLostHalfOfItsTubeEnds) {
+  this->open(0.02);
+  // 0.6 + 0.375 mm.
+  EXPECT_EQ(this->refuses(4.0 + 0.96, 4.0, 4.0, 0.02, true), Reason::kNone);
+  EXPECT_EQ(this->refuses(4.0 + 0.99, 4.0, 4.0, 0.02, true), Reason::kJump);
 }
 
 TYPED_TEST(ToolGateOf, RefusesASpeedBeyondAQuarterAboveTheLimit) {
