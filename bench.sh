@@ -3,15 +3,39 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-session=tests/data/recordings/square_flush/session.toml
-recording=tests/data/recordings/square_flush/recording.y4m.xz
+session=tests/data/recordings/two_visits/session.toml
+recording=tests/data/recordings/two_visits/recording.y4m.xz
 out=build/bench-run
 
 scripts/install_packages.sh bench
 
 mkdir -p build "$out"
-if ! { cmake --preset bench -DTUBESIGHT_BUILD_TESTS=OFF \
-  && cmake --build --preset bench --target tubesight; } > build/bench.log 2>&1; then
+
+build() {
+  cmake --preset bench -DTUBESIGHT_BUILD_TESTS=OFF \
+    && NINJA_STATUS='[%p] ' cmake --build --preset bench --target tubesight
+}
+
+# Tells how far ninja is: in one line of a terminal, else every ten per cent.
+tell_progress() {
+  local line percent told=-10
+  while IFS= read -r line; do
+    [[ $line =~ ^\[\ *([0-9]+)%\] ]] || continue
+    percent=${BASH_REMATCH[1]}
+    if [ -t 1 ]; then
+      printf '\rbuilding: %3d %%' "$percent"
+    elif [ "$percent" -ge $((told + 10)) ]; then
+      echo "building: $percent %"
+      told=$((percent / 10 * 10))
+    fi
+  done
+  if [ -t 1 ]; then
+    echo
+  fi
+}
+
+echo "building; the compiler's words go to build/bench.log"
+if ! build 2>&1 | tee build/bench.log | tell_progress; then
   tail -n 30 build/bench.log >&2
   echo "$0: the build failed; all of it is in build/bench.log" >&2
   exit 1

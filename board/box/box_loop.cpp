@@ -272,7 +272,8 @@ void BoxLoop<S, Margin>::publish() {
     services_.view->take(input_.field);
   }
   if (services_.overlay != nullptr) {
-    describe<S>(*session_, output_, input_.field.number, services_.estimates, overlay_);
+    news_.take(input_, output_);
+    describe<S>(*session_, output_, news_, input_.field.number, services_.estimates, overlay_);
     services_.overlay->publish(overlay_);
   }
 }

@@ -7,6 +7,7 @@
 
 #include "board/box/event_recorder.h"
 #include "board/box/frame_view.h"
+#include "board/box/overlay_news.h"
 #include "board/box/overlay_snapshot.h"
 #include "board/box/pair_desk.h"
 #include "board/box/pose_desk.h"
@@ -142,6 +143,7 @@ class BoxLoop {
   bool frame_half_missing_ = false;                  ///< the next turn brings its other field
   std::int64_t last_number_ = -1;
   std::int64_t number_shift_ = 0;  ///< from the grabber's numbers to ours: missing ones are counted
+  OverlayNews news_;
   OverlaySnapshot overlay_;
 };
 

@@ -16,6 +16,17 @@ std::optional<core::ImagePoint> locate(const core::tracking::Tracker<S, Margin>&
 }
 
 template <core::Scalar S, typename Margin>
+std::optional<std::array<core::ImagePoint, 4>> locate_around(
+    const core::tracking::Tracker<S, Margin>& tracker, core::TubeAddress tube) {
+  std::array<core::ImagePoint, 4> around{};
+  const bool located = tracker.locate({tube.row + 1, tube.column}, around[0]) &&
+                       tracker.locate({tube.row - 1, tube.column}, around[1]) &&
+                       tracker.locate({tube.row, tube.column + 1}, around[2]) &&
+                       tracker.locate({tube.row, tube.column - 1}, around[3]);
+  return located ? std::optional(around) : std::nullopt;
+}
+
+template <core::Scalar S, typename Margin>
 void list_estimates(const core::tracking::Tracker<S, Margin>& tracker, OverlaySnapshot& snapshot) {
   core::tracking::CandidateList<S> expected;
   tracker.list_estimates(expected);
@@ -40,7 +51,8 @@ void list_estimates(const core::tracking::Tracker<S, Margin>& tracker, OverlaySn
 
 template <core::Scalar S, typename Margin>
 void describe(const core::session::Session<S, Margin>& session, const core::session::Output& output,
-              std::int64_t field, bool estimates, OverlaySnapshot& snapshot) {
+              const OverlayNews& news, std::int64_t field, bool estimates,
+              OverlaySnapshot& snapshot) {
   snapshot.field = field;
   snapshot.sighting = output.sighting;
   snapshot.tubes = output.tubes;
@@ -51,6 +63,15 @@ void describe(const core::session::Session<S, Margin>& session, const core::sess
     snapshot.next_row_px = locate<S>(session.tracker(), {primary.row + 1, primary.column});
     snapshot.next_column_px = locate<S>(session.tracker(), {primary.row, primary.column + 1});
   }
+  snapshot.around_tool_px.reset();
+  if (output.sighting.tool_known) {
+    snapshot.around_tool_px = locate_around<S>(session.tracker(), output.sighting.tool);
+  }
+  snapshot.news = news;
+  snapshot.claimed_px.reset();
+  if (news.claim() && news.claim()->verdict == core::ClaimVerdict::kContradicted) {
+    snapshot.claimed_px = locate<S>(session.tracker(), news.claim()->claimed);
+  }
   snapshot.estimates.clear();
   if (estimates) {
     list_estimates<S>(session.tracker(), snapshot);
@@ -59,8 +80,8 @@ void describe(const core::session::Session<S, Margin>& session, const core::sess
 
 #define TUBESIGHT_INSTANTIATE(S, Margin)                                              \
   template void describe<S, Margin>(const core::session::Session<S, Margin>&,         \
-                                    const core::session::Output&, std::int64_t, bool, \
-                                    OverlaySnapshot&);
+                                    const core::session::Output&, const OverlayNews&, \
+                                    std::int64_t, bool, OverlaySnapshot&);
 TUBESIGHT_FOR_EACH_POLICY(TUBESIGHT_INSTANTIATE)
 #undef TUBESIGHT_INSTANTIATE
 

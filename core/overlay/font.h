@@ -27,7 +27,8 @@ struct Glyph {
   }
 };
 
-/// The glyph of a character: digits, letters, space and - + . , : / ( ) %; a hollow box for others.
+/// The glyph of a character: digits, letters, space and - + . , : / ( ) % ' _ [ ] =; a hollow box
+/// for others.
 [[nodiscard]] const Glyph& glyph_of(char character);
 
 /// Says whether the font draws this character as itself rather than as the hollow box.

@@ -1,245 +1,252 @@
 #include "core/overlay/marks.h"
 
-#include <cstdlib>
+#include <algorithm>
+#include <array>
+#include <string_view>
 
+#include "core/overlay/arrow.h"
 #include "core/overlay/font.h"
+#include "core/overlay/labels.h"
 #include "core/overlay/palette.h"
-#include "core/overlay/readout.h"
 #include "core/overlay/text_line.h"
 
 namespace tubesight::core::overlay {
 namespace {
 
-// The tool's cross-hair is the largest mark: its arms begin inside a tube-end's dark (some 25 px in
-// radius near the middle of a 635 px picture) and end well outside the rim.
-constexpr std::int32_t kToolGap_px = 14;
-constexpr std::int32_t kToolReach_px = 52;
-constexpr std::int32_t kToolThickness_px = 5;
-constexpr std::int32_t kToolBox_px = 8;
-// Half of the bars across the arms' ends: they show beside an axis that lies on an arm.
-constexpr std::int32_t kToolBar_px = 9;
+// Lengths in pixels of a picture 640 px in width. A halo keeps marks apart from a bright sheet.
+constexpr std::int32_t kHalo = 1;
+constexpr std::int32_t kTubeReach = 5;
+constexpr std::int32_t kAxisThickness = 3;
+// An offset whose arrow would be shorter has none.
+constexpr std::int32_t kShortestOffset = 12;
+constexpr std::int32_t kLetterAside = 7;
+constexpr std::int32_t kRingRadius = 5;
 
-constexpr std::int32_t kAxisThickness_px = 3;
-constexpr std::int32_t kArrowLength_px = 11;
-constexpr std::int32_t kArrowWidth_px = 5;
+// The frame stands this far outside of the rim; a rim that is not known has the middle one's size.
+constexpr std::int32_t kFrameGap = 4;
+constexpr std::int32_t kFrameThickness = 4;
+constexpr std::int32_t kUnknownRim = 30;
+constexpr std::int32_t kLargestRim_px = 1024;
 
-constexpr std::int32_t kTubeReach_px = 5;
-
-// Largest integer whose square is not above `value`, 0 .. 2^62 - 1; bit by bit, 32 steps.
-std::int64_t integer_root(std::int64_t value) {
-  std::int64_t root = 0;
-  for (std::int64_t bit = std::int64_t{1} << 31; bit != 0; bit >>= 1) {
-    const std::int64_t trial = root + bit;
-    if (trial * trial <= value) {
-      root = trial;
-    }
-  }
-  return root;
-}
+constexpr std::int32_t kPinHeight = 14;
+constexpr std::int32_t kPinHalfWidth = 7;
+constexpr std::int32_t kClaimRadius = 15;
 
 PixelBox box_around(PixelPoint at, std::int32_t reach_px) {
   return {at.u_px - reach_px, at.v_px - reach_px, at.u_px + reach_px, at.v_px + reach_px};
 }
 
-struct Arrow {
-  PixelPoint from;
-  PixelPoint tip;
-  PixelPoint barb_left;
-  PixelPoint barb_right;
-};
-
-// The arrow from `origin` over four fifths of the way to `next`; works in 1/65536 px throughout.
-Arrow arrow_towards(ImagePoint origin, ImagePoint next) {
-  const std::int64_t du = std::int64_t{next.u_q16} - origin.u_q16;
-  const std::int64_t dv = std::int64_t{next.v_q16} - origin.v_q16;
-  const std::int64_t tip_u = origin.u_q16 + du * 4 / 5;
-  const std::int64_t tip_v = origin.v_q16 + dv * 4 / 5;
-  // |du|, |dv| < 2^32: shifted by 2, their squares' sum fits 63 bits.
-  const std::int64_t length = integer_root((du >> 2) * (du >> 2) + (dv >> 2) * (dv >> 2)) * 4;
-  const auto point = [](std::int64_t u_q16, std::int64_t v_q16) {
-    return nearest_pixel({static_cast<std::int32_t>(u_q16), static_cast<std::int32_t>(v_q16)});
-  };
-  Arrow arrow{point(origin.u_q16, origin.v_q16), point(tip_u, tip_v), {}, {}};
-  arrow.barb_left = arrow.tip;
-  arrow.barb_right = arrow.tip;
-  // A shaft not longer than its head would point backwards.
-  if (length < (std::int64_t{2 * kArrowLength_px} << 16)) {
-    return arrow;
-  }
-  const auto barb = [&](std::int64_t side) {
-    // Pixels first: the product of two numbers in 1/65536 px could leave 64 bits.
-    const std::int64_t back_u = (du * kArrowLength_px - side * dv * kArrowWidth_px) * 256 / length;
-    const std::int64_t back_v = (dv * kArrowLength_px + side * du * kArrowWidth_px) * 256 / length;
-    return PixelPoint{arrow.tip.u_px - static_cast<std::int32_t>(nearest_quotient(back_u, 256)),
-                      arrow.tip.v_px - static_cast<std::int32_t>(nearest_quotient(back_v, 256))};
-  };
-  arrow.barb_left = barb(-1);
-  arrow.barb_right = barb(1);
-  return arrow;
-}
-
-void draw_arrow(Painter& painter, const Arrow& arrow, std::int32_t thickness_px, Rgb colour) {
-  painter.line(arrow.from, arrow.tip, thickness_px, colour);
-  painter.line(arrow.barb_left, arrow.tip, thickness_px, colour);
-  painter.line(arrow.barb_right, arrow.tip, thickness_px, colour);
-}
-
-TextLine address_text(TubeAddress address) {
-  TextLine line;
-  line.integer(address.row).words(",").integer(address.column);
-  return line;
-}
-
-// Where an estimate's address is written: centred beneath its dot.
-PixelBox label_box(PixelPoint at, std::string_view words) {
-  constexpr std::int32_t kBelow_px = 8;
-  const std::int32_t left = at.u_px - text_width_px(words, 1) / 2;
-  const std::int32_t top = at.v_px + kBelow_px;
-  return {left, top, left + text_width_px(words, 1) - 1, top + kCapitalHeight + 1};
-}
-
-bool overlap(const PixelBox& a, const PixelBox& b) {
-  return a.left <= b.right + 2 && b.left <= a.right + 2 && a.top <= b.bottom && b.top <= a.bottom;
-}
-
-// Whether the address of `estimates[index]` can be written in `box` without touching another
-// estimate's dot or address. Of two addresses that touch none is written, so that the choice does
-// not depend on the order.
-bool has_room(std::span<const Estimate> estimates, std::size_t index, const PixelBox& box) {
-  // The longest address is 23 characters of 6 px wide.
-  constexpr std::int32_t kFar_px = 160;
-  constexpr std::int32_t kBeneath_px = 24;
-  const PixelPoint at = nearest_pixel(estimates[index].center_px);
-  for (std::size_t other = 0; other < estimates.size(); ++other) {
-    const PixelPoint place = nearest_pixel(estimates[other].center_px);
-    if (other == index || std::abs(place.v_px - at.v_px) > kBeneath_px ||
-        std::abs(place.u_px - at.u_px) > kFar_px) {
-      continue;
-    }
-    const TextLine words = address_text(estimates[other].address);
-    if (overlap(box, box_around(place, 3)) || overlap(box, label_box(place, words.view()))) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void draw_address(Painter& painter, std::span<const Estimate> estimates, std::size_t index,
-                  Rgb colour) {
-  const TextLine words = address_text(estimates[index].address);
-  const PixelBox box = label_box(nearest_pixel(estimates[index].center_px), words.view());
-  const std::int32_t floor =
-      painter.height_px() - readout_height_px(painter.width_px(), painter.height_px());
-  if (box.left < 0 || box.top < 0 || box.right >= painter.width_px() || box.bottom >= floor ||
-      !has_room(estimates, index, box)) {
+// A letter beside an axis, on the side that the other one does not leave to.
+void draw_axis_letter(Painter& painter, MarkScale scale, const Way& way,
+                      const std::optional<Way>& other, std::string_view letter, Rgb colour) {
+  if (way.length < (std::int64_t{1} << 16)) {
     return;
   }
-  painter.fill({box.left - 1, box.top - 1, box.right + 1, box.bottom}, palette::kBlack);
-  painter.text({box.left, box.top}, words.view(), 1, colour);
+  // In 1/256 px: products of two of them fit 64 bits.
+  const std::int64_t turn =
+      other ? way.du / 256 * (other->dv / 256) - way.dv / 256 * (other->du / 256) : 0;
+  const std::int64_t aside = std::int64_t{scale.px(kLetterAside) + 4 * scale.text()} << 16;
+  const PixelPoint middle =
+      nearest_pixel(way.beside(way.length / 4 * 3, turn > 0 ? -aside : aside));
+  const std::int32_t top = middle.v_px - kCapitalHeight * scale.text() / 2;
+  draw_label(painter, scale, label_box(middle.u_px, top, letter, scale), letter, colour);
 }
 
 }  // namespace
 
-void draw_search_window(Painter& painter, const PixelBox& window) {
-  painter.outline(window, 1, palette::kWindow);
+void draw_search_window(Painter& painter, MarkScale scale, const PixelBox& window) {
+  painter.outline(window, scale.px(1), palette::kWindow);
 }
 
-void draw_optimum(Painter& painter, PixelPoint at) {
-  constexpr std::int32_t kReach_px = 6;
-  const PixelPoint top{at.u_px, at.v_px - kReach_px};
-  const PixelPoint bottom{at.u_px, at.v_px + kReach_px};
-  const PixelPoint left{at.u_px - kReach_px, at.v_px};
-  const PixelPoint right{at.u_px + kReach_px, at.v_px};
-  painter.line(top, right, 1, palette::kWindow);
-  painter.line(right, bottom, 1, palette::kWindow);
-  painter.line(bottom, left, 1, palette::kWindow);
-  painter.line(left, top, 1, palette::kWindow);
+void draw_optimum(Painter& painter, MarkScale scale, PixelPoint at) {
+  const std::int32_t reach = scale.px(6);
+  const std::int32_t thickness = scale.px(1);
+  const PixelPoint top{at.u_px, at.v_px - reach};
+  const PixelPoint bottom{at.u_px, at.v_px + reach};
+  const PixelPoint left{at.u_px - reach, at.v_px};
+  const PixelPoint right{at.u_px + reach, at.v_px};
+  painter.line(top, right, thickness, palette::kWindow);
+  painter.line(right, bottom, thickness, palette::kWindow);
+  painter.line(bottom, left, thickness, palette::kWindow);
+  painter.line(left, top, thickness, palette::kWindow);
 }
 
-void draw_estimates(Painter& painter, std::span<const Estimate> estimates) {
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    const PixelPoint at = nearest_pixel(estimates[i].center_px);
-    switch (estimates[i].state) {
+void draw_estimates(Painter& painter, MarkScale scale, std::span<const Estimate> estimates) {
+  const std::int32_t thin = scale.px(1);
+  const std::int32_t halo = scale.px(kHalo);
+  for (const Estimate& estimate : estimates) {
+    const PixelPoint at = nearest_pixel(estimate.center_px);
+    const Rgb colour = estimate_colour(estimate.state);
+    switch (estimate.state) {
       case TubeState::kOpen:
-        painter.fill(box_around(at, 2), palette::kBlack);
-        painter.fill(box_around(at, 1), palette::kEstimateOpen);
-        draw_address(painter, estimates, i, palette::kEstimateOpen);
+        painter.fill(box_around(at, thin + halo), palette::kBlack);
+        painter.fill(box_around(at, thin), colour);
         break;
       case TubeState::kPlugged:
-        painter.outline(box_around(at, 4), 3, palette::kBlack);
-        painter.outline(box_around(at, 3), 1, palette::kEstimatePlugged);
-        draw_address(painter, estimates, i, palette::kEstimatePlugged);
+        painter.outline(box_around(at, scale.px(3) + halo), thin + 2 * halo, palette::kBlack);
+        painter.outline(box_around(at, scale.px(3)), thin, colour);
         break;
       case TubeState::kAbsent:
-        painter.diagonal_cross(at, 3, 3, palette::kBlack);
-        painter.diagonal_cross(at, 3, 1, palette::kEstimateAbsent);
+        painter.diagonal_cross(at, scale.px(3), thin + 2 * halo, palette::kBlack);
+        painter.diagonal_cross(at, scale.px(3), thin, colour);
         break;
     }
   }
+  draw_addresses(painter, scale, estimates);
 }
 
-void draw_tube(Painter& painter, const TubeSighting& tube) {
+void draw_tube(Painter& painter, MarkScale scale, const TubeSighting& tube) {
   const PixelPoint at = nearest_pixel(tube.center_px);
+  const std::int32_t reach = scale.px(kTubeReach);
+  const std::int32_t halo = scale.px(kHalo);
   if (tube.plug) {
-    painter.outline(box_around(at, kTubeReach_px + 3), 4, palette::kBlack);
-    painter.outline(box_around(at, kTubeReach_px + 2), 2, palette::kPlug);
+    const std::int32_t thickness = scale.px(2);
+    painter.outline(box_around(at, scale.px(7) + halo), thickness + 2 * halo, palette::kBlack);
+    painter.outline(box_around(at, scale.px(7)), thickness, palette::kPlug);
   } else if (tube.quality_permyriad <= 0) {
-    painter.diagonal_cross(at, kTubeReach_px, 4, palette::kBlack);
-    painter.diagonal_cross(at, kTubeReach_px, 2, palette::kRejected);
+    const std::int32_t thickness = scale.px(2);
+    painter.diagonal_cross(at, reach, thickness + 2 * halo, palette::kBlack);
+    painter.diagonal_cross(at, reach, thickness, palette::kRejected);
   } else {
-    painter.cross_hair(at, 0, kTubeReach_px + 1, 3, palette::kBlack);
-    painter.cross_hair(at, 0, kTubeReach_px, 1, palette::kUsed);
+    const std::int32_t thickness = scale.px(1);
+    painter.cross_hair(at, 0, reach + halo, thickness + 2 * halo, palette::kBlack);
+    painter.cross_hair(at, 0, reach, thickness, palette::kUsed);
   }
 }
 
-void draw_axis_point(Painter& painter, PixelPoint at) {
-  constexpr std::int32_t kRadius_px = 5;
-  painter.circle(at, kRadius_px - 1, palette::kBlack);
-  painter.circle(at, kRadius_px + 1, palette::kBlack);
-  painter.circle(at, kRadius_px, palette::kAxis);
+void draw_axis_point(Painter& painter, MarkScale scale, PixelPoint at) {
+  const std::int32_t outer = scale.px(kRingRadius);
+  const std::int32_t inner = outer - scale.px(1) + 1;
+  const std::int32_t halo = scale.px(kHalo);
+  painter.ring(at, std::max(0, inner - halo), outer + halo, palette::kBlack);
+  painter.ring(at, inner, outer, palette::kAxis);
 }
 
-void draw_tool(Painter& painter, PixelPoint at, bool aligned) {
-  // Twice the same shape: once larger in black, as an edge that keeps it apart from a bright sheet.
-  for (const std::int32_t edge : {1, 0}) {
-    const Rgb colour = edge == 1 ? palette::kBlack : palette::kTool;
-    painter.cross_hair(at, kToolGap_px - edge, kToolReach_px + edge, kToolThickness_px + 2 * edge,
-                       colour);
-    const std::int32_t near = kToolReach_px - 2 - edge;
-    const std::int32_t far = kToolReach_px + edge;
-    const std::int32_t half = kToolBar_px + edge;
-    const auto [u, v] = at;
-    painter.fill({u - far, v - half, u - near, v + half}, colour);
-    painter.fill({u + near, v - half, u + far, v + half}, colour);
-    painter.fill({u - half, v - far, u + half, v - near}, colour);
-    painter.fill({u - half, v + near, u + half, v + far}, colour);
+void draw_offset(Painter& painter, MarkScale scale, ImagePoint tube, ImagePoint axis) {
+  const Way whole(tube, axis);
+  const std::int64_t ring = std::int64_t{scale.px(kRingRadius + 2)} << 16;
+  const std::int64_t shaft = whole.length - ring;
+  if (shaft < (std::int64_t{scale.px(kShortestOffset)} << 16)) {
+    return;
+  }
+  const Way way(tube, whole.at(shaft >> 8, whole.length >> 8));
+  const std::int32_t thickness = scale.px(2);
+  draw_arrow(painter, scale, way, thickness + 2 * scale.px(kHalo), palette::kBlack);
+  draw_arrow(painter, scale, way, thickness, palette::kTool);
+}
+
+void draw_tool(Painter& painter, MarkScale scale, PixelPoint at, std::optional<HalfSize> rim,
+               bool aligned) {
+  const auto half = [&](std::int32_t known_px) {
+    const std::int32_t size =
+        rim ? std::clamp(known_px, scale.px(kRingRadius), kLargestRim_px) : scale.px(kUnknownRim);
+    return size + scale.px(kFrameGap + kFrameThickness);
+  };
+  const std::int32_t half_u = half(rim ? rim->u_px : 0);
+  const std::int32_t half_v = half(rim ? rim->v_px : 0);
+  const std::int32_t thickness = scale.px(kFrameThickness);
+  // Corners: two fifths of a side from each end, so that a fifth stays open.
+  const std::int32_t side_u = half_u * 4 / 5;
+  const std::int32_t side_v = half_v * 4 / 5;
+  const auto [u, v] = at;
+  for (const bool edge : {true, false}) {
+    const std::int32_t out = edge ? scale.px(kHalo) : 0;
+    const Rgb colour = edge ? palette::kBlack : palette::kTool;
+    const PixelBox box{u - half_u - out, v - half_v - out, u + half_u + out, v + half_v + out};
+    const std::int32_t thick = thickness + 2 * out;
     if (aligned) {
-      painter.fill(box_around(at, kToolBox_px + edge), colour);
-    } else {
-      painter.outline(box_around(at, kToolBox_px + edge), 2 + 2 * edge, colour);
+      painter.outline(box, thick, colour);
+      continue;
+    }
+    const std::int32_t long_u = side_u + 2 * out - 1;
+    const std::int32_t long_v = side_v + 2 * out - 1;
+    for (const std::int32_t top : {box.top, box.bottom - thick + 1}) {
+      painter.fill({box.left, top, box.left + long_u, top + thick - 1}, colour);
+      painter.fill({box.right - long_u, top, box.right, top + thick - 1}, colour);
+    }
+    for (const std::int32_t left : {box.left, box.right - thick + 1}) {
+      painter.fill({left, box.top, left + thick - 1, box.top + long_v}, colour);
+      painter.fill({left, box.bottom - long_v, left + thick - 1, box.bottom}, colour);
     }
   }
 }
 
-void draw_axes(Painter& painter, ImagePoint origin, std::optional<ImagePoint> next_row,
-               std::optional<ImagePoint> next_column) {
-  // Both halos lie under both axes: neither axis is cut at the corner.
-  if (next_row) {
-    draw_arrow(painter, arrow_towards(origin, *next_row), kAxisThickness_px + 2, palette::kBlack);
+void draw_axes(Painter& painter, MarkScale scale, ImagePoint origin,
+               std::optional<ImagePoint> next_row, std::optional<ImagePoint> next_column) {
+  struct Axis {
+    std::optional<Way> way;
+    std::string_view letter;
+    Rgb colour;
+  };
+  const auto way = [&](const std::optional<ImagePoint>& next) {
+    return next ? std::optional(Way(origin, *next)) : std::nullopt;
+  };
+  const std::array<Axis, 2> axes{Axis{way(next_row), "R", palette::kRow},
+                                 Axis{way(next_column), "C", palette::kColumn}};
+  const std::int32_t halo = scale.px(kHalo);
+  const std::int32_t thickness = scale.px(kAxisThickness);
+  const auto draw = [&](const Axis& axis, std::int32_t thick, Rgb colour) {
+    if (axis.way) {
+      draw_arrow(painter, scale, Way(axis.way->at(2, 5), axis.way->at(4, 5)), thick, colour);
+    }
+  };
+  // Both halos lie under both axes: neither cuts the other.
+  for (const Axis& axis : axes) {
+    draw(axis, thickness + 2 * halo, palette::kBlack);
   }
-  if (next_column) {
-    draw_arrow(painter, arrow_towards(origin, *next_column), kAxisThickness_px + 2,
-               palette::kBlack);
+  for (const Axis& axis : axes) {
+    draw(axis, thickness, axis.colour);
   }
-  if (next_row) {
-    draw_arrow(painter, arrow_towards(origin, *next_row), kAxisThickness_px, palette::kRow);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+    if (axes[i].way) {
+      draw_axis_letter(painter, scale, *axes[i].way, axes[1 - i].way, axes[i].letter,
+                       axes[i].colour);
+    }
   }
-  if (next_column) {
-    draw_arrow(painter, arrow_towards(origin, *next_column), kAxisThickness_px, palette::kColumn);
+  const PixelPoint center = nearest_pixel(origin);
+  painter.fill(box_around(center, scale.px(2) + halo), palette::kBlack);
+  painter.fill(box_around(center, scale.px(2)), palette::kWhite);
+}
+
+void draw_contradicted_claim(Painter& painter, MarkScale scale, PixelPoint at) {
+  const std::int32_t outer = scale.px(kClaimRadius);
+  const std::int32_t halo = scale.px(kHalo);
+  const std::int32_t thickness = scale.px(3);
+  // Seven tenths: the bar's ends lie on the ring.
+  const std::int32_t reach = outer * 7 / 10;
+  const PixelPoint begin{at.u_px - reach, at.v_px - reach};
+  const PixelPoint end{at.u_px + reach, at.v_px + reach};
+  painter.ring(at, std::max(0, outer - thickness + 1 - halo), outer + halo, palette::kBlack);
+  painter.line(begin, end, thickness + 2 * halo, palette::kBlack);
+  painter.ring(at, std::max(0, outer - thickness + 1), outer, palette::kClaim);
+  painter.line(begin, end, thickness, palette::kClaim);
+}
+
+void draw_click(Painter& painter, MarkScale scale, const Click& click) {
+  const PixelPoint tip = nearest_pixel(click.at_px);
+  const Rgb colour =
+      click.verdict == ClickVerdict::kTaken ? palette::kClick : palette::kClickRefused;
+  const std::int32_t height = scale.px(kPinHeight);
+  const std::int32_t half = scale.px(kPinHalfWidth);
+  const PixelPoint left{tip.u_px - half, tip.v_px - height};
+  const PixelPoint right{tip.u_px + half, tip.v_px - height};
+  const std::int32_t thickness = scale.px(2);
+  const auto pin = [&](std::int32_t thick, Rgb ink) {
+    painter.line(tip, left, thick, ink);
+    painter.line(tip, right, thick, ink);
+    painter.line(left, right, thick, ink);
+  };
+  pin(thickness + 2 * scale.px(kHalo), palette::kBlack);
+  pin(thickness, colour);
+  if (click.verdict == ClickVerdict::kBlamed) {
+    for (std::int32_t up = 0; up <= height; ++up) {
+      const std::int32_t wide = half * up / height;
+      painter.fill({tip.u_px - wide, tip.v_px - up, tip.u_px + wide, tip.v_px - up}, colour);
+    }
   }
-  const PixelPoint corner = nearest_pixel(origin);
-  painter.fill(box_around(corner, 3), palette::kBlack);
-  painter.fill(box_around(corner, 2), palette::kWhite);
+  const TextLine words = address_text(click.address);
+  const std::int32_t top = left.v_px - (kCapitalHeight + 4) * scale.text() - thickness;
+  draw_label(painter, scale, label_box(tip.u_px, top, words.view(), scale), words.view(), colour);
 }
 
 }  // namespace tubesight::core::overlay

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 
 #include "core/base/assert.h"
 #include "core/overlay/font.h"
@@ -44,9 +45,17 @@ void Painter::fill(const PixelBox& box, Rgb colour) {
   const std::int32_t right = std::min(box.right, picture_.width_px - 1);
   const std::int32_t top = std::max(box.top, 0);
   const std::int32_t bottom = std::min(box.bottom, picture_.height_px - 1);
+  if (left > right) {
+    return;
+  }
+  const bool grey = colour.red == colour.green && colour.green == colour.blue;
   for (std::int32_t v = top; v <= bottom; ++v) {
     std::uint8_t* pixel = picture_.pixels + static_cast<std::ptrdiff_t>(v) * picture_.stride_bytes +
                           3 * static_cast<std::ptrdiff_t>(left);
+    if (grey) {
+      std::memset(pixel, colour.red, 3 * static_cast<std::size_t>(right - left + 1));
+      continue;
+    }
     for (std::int32_t u = left; u <= right; ++u) {
       pixel[0] = colour.red;
       pixel[1] = colour.green;
@@ -152,6 +161,22 @@ void Painter::circle(PixelPoint center, std::int32_t radius_px, Rgb colour) {
     pixel({u - y, v + x}, colour);
     pixel({u + y, v - x}, colour);
     pixel({u - y, v - x}, colour);
+  }
+}
+
+void Painter::ring(PixelPoint center, std::int32_t inner_px, std::int32_t outer_px, Rgb colour) {
+  TUBESIGHT_ASSERT(inner_px >= 0 && inner_px <= outer_px && outer_px <= 4096);
+  const auto [u, v] = limited(center);
+  // Twice the distances, so that the halves are whole numbers; 4 * 2 * 4097^2 fits 32 bits.
+  const std::int32_t nearest = (2 * inner_px - 1) * (2 * inner_px - 1);
+  const std::int32_t farthest = (2 * outer_px + 1) * (2 * outer_px + 1);
+  for (std::int32_t dv = -outer_px; dv <= outer_px; ++dv) {
+    for (std::int32_t du = -outer_px; du <= outer_px; ++du) {
+      const std::int32_t distance = 4 * (du * du + dv * dv);
+      if (distance <= farthest && (inner_px == 0 || distance >= nearest)) {
+        pixel({u + du, v + dv}, colour);
+      }
+    }
   }
 }
 

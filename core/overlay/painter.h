@@ -50,6 +50,10 @@ class Painter {
   /// Draws the outline, one pixel wide, of a circle with a radius of 0..4096 px (asserted).
   void circle(PixelPoint center, std::int32_t radius_px, Rgb colour);
 
+  /// Fills the ring of pixels whose centres lie between two distances from `center`'s, those of
+  /// `inner_px` - 1/2 and `outer_px` + 1/2, for 0 <= inner_px <= outer_px <= 4096 (asserted).
+  void ring(PixelPoint center, std::int32_t inner_px, std::int32_t outer_px, Rgb colour);
+
   /// Writes one line of text, `scale` >= 1 pixels a dot, `top_left` being the first cell's corner.
   ///
   /// See font.h for what it measures and which characters there are.

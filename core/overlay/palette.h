@@ -5,7 +5,9 @@
 /// The colours of the operator's display.
 ///
 /// Row, column and tool keep the colours of the source's display [Fallon 6.4]; its "dark blue" is
-/// lightened until it can be read on black. No two marks that carry a meaning share a colour.
+/// lightened until it can be read on black. No two marks that carry a meaning share a colour, and
+/// no two are told apart by colour alone: they differ in shape, or a letter or word says which it
+/// is.
 namespace tubesight::core::overlay::palette {
 
 inline constexpr Rgb kBlack{0, 0, 0};
@@ -21,6 +23,10 @@ inline constexpr Rgb kAxis{224, 240, 255};   ///< where the guidetube's axis mee
 inline constexpr Rgb kUsed{48, 232, 96};       ///< tube-end measured and used
 inline constexpr Rgb kRejected{255, 120, 24};  ///< tube-end measured, but not believed
 inline constexpr Rgb kPlug{255, 72, 255};      ///< tube-end recognised as a plug
+
+inline constexpr Rgb kClick{255, 240, 200};       ///< a click whose start was taken
+inline constexpr Rgb kClickRefused{255, 88, 72};  ///< a click whose start was refused
+inline constexpr Rgb kClaim{255, 48, 88};         ///< a claim that the box contradicts
 
 inline constexpr Rgb kWindow{0, 176, 176};  ///< search window and optimum point
 

@@ -8,12 +8,12 @@ namespace tubesight::core::overlay {
 
 /// A line of text being put together, held inside the object.
 ///
-/// The capacity covers the longest line of the readout with the longest numbers, which is
-/// "offset -8388.61  height -8388.6 mm"; running over is a programmer's mistake and asserts, as a
-/// number cut short would be a wrong number.
+/// The capacity covers the longest line of the readout, which is a reason in words and what to do
+/// about it; running over is a programmer's mistake and asserts, as a number cut short would be a
+/// wrong number.
 class TextLine {
  public:
-  static constexpr std::int32_t kCapacity = 64;
+  static constexpr std::int32_t kCapacity = 160;
 
   /// Appends words as they are.
   TextLine& words(std::string_view text);

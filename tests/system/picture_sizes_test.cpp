@@ -25,7 +25,8 @@ struct Camera {
   std::int32_t height_px;
   const char* scan;
   const char* rate_hz;
-  const char* rest_s;  ///< of six fields
+  const char* rest_s;              ///< of six fields
+  std::int32_t overlay_height_px;  ///< with the readout below
 };
 
 std::ostream& operator<<(std::ostream& out, const Camera& camera) {
@@ -95,7 +96,7 @@ TEST_P(Cameras, AreDrawnTrackedMarkedAndMeasured) {
     EXPECT_EQ(field.at("tool_column"), "60");
   }
   EXPECT_EQ(size_of_png(folder.read("marks/field-000000.png")),
-            (std::pair{GetParam().width_px, GetParam().height_px}));
+            (std::pair{GetParam().width_px, GetParam().overlay_height_px}));
   const std::vector<Row> poses = read_rows(folder.read("p.csv"));
   ASSERT_FALSE(poses.empty());
   for (const char* axis : {"x", "y", "z"}) {
@@ -107,13 +108,13 @@ TEST_P(Cameras, AreDrawnTrackedMarkedAndMeasured) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Cameras,
-                         testing::Values(Camera{320, 240, "odd-first", "30", "0.1"},
-                                         Camera{1920, 1200, "progressive", "120", "0.05"}));
+                         testing::Values(Camera{320, 240, "odd-first", "30", "0.1", 320},
+                                         Camera{1920, 1200, "progressive", "120", "0.05", 1560}));
 
 TEST(CameraSizes, OutsideTheRangeAreRefusedWithTheRange) {
   const TemporaryFolder folder;
-  folder.write("wide.toml", scenario_of({2049, 1200, "progressive", "60", "0.1"}));
-  folder.write("small.toml", scenario_of({63, 48, "progressive", "60", "0.1"}));
+  folder.write("wide.toml", scenario_of({2049, 1200, "progressive", "60", "0.1", 0}));
+  folder.write("small.toml", scenario_of({63, 48, "progressive", "60", "0.1", 0}));
 
   const ProgramRun wide = run_tubesight(folder, {"simulate", "wide.toml", "--out", "r"});
   const ProgramRun small = run_tubesight(folder, {"simulate", "small.toml", "--out", "r"});

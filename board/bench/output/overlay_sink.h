@@ -18,7 +18,7 @@ class OverlaySink {
  public:
   virtual ~OverlaySink() = default;
 
-  /// Prepares the place. `recording` gives size and rate of frames.
+  /// Prepares the place. `recording` gives the rate of frames and the size of the pictures.
   [[nodiscard]] virtual core::Result<void> open(const drivers::Y4mHeader& recording,
                                                 bool interlaced) = 0;
   /// Takes the picture of the field with this number.

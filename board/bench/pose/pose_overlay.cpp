@@ -4,35 +4,38 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/overlay/labels.h"
+#include "core/overlay/mark_scale.h"
+#include "core/overlay/marks.h"
 #include "core/overlay/overlay.h"
 #include "core/overlay/painter.h"
-#include "core/overlay/palette.h"
+#include "core/overlay/still_marks.h"
 #include "core/picture/sheet_view.h"
 #include "core/pose/tool_answer.h"
 
 namespace tubesight::board {
 namespace {
 
+using core::overlay::MarkScale;
 using core::overlay::Painter;
 using core::overlay::PixelPoint;
-using core::overlay::Rgb;
-namespace palette = core::overlay::palette;
+using core::overlay::RimMark;
 
 PixelPoint nearest(double u_px, double v_px) {
   return {static_cast<std::int32_t>(std::floor(u_px + 0.5)),
           static_cast<std::int32_t>(std::floor(v_px + 0.5))};
 }
 
-Rgb colour_of(const core::pose::PictureTube& tube) {
+RimMark mark_of(const core::pose::PictureTube& tube) {
   if (tube.rim >= 0) {
-    return tube.used ? palette::kUsed : palette::kRejected;
+    return tube.used ? RimMark::kUsed : RimMark::kRejected;
   }
-  return tube.finding == core::picture::RimFinding::kBright ? palette::kPlug
-                                                            : palette::kEstimateAbsent;
+  return tube.finding == core::picture::RimFinding::kBright ? RimMark::kClosed
+                                                            : RimMark::kNotMeasured;
 }
 
-void draw_circle(Painter& painter, const core::picture::SheetView& view,
-                 const Eigen::Vector2d& center_mm, double radius_mm, Rgb colour) {
+void draw_rim(Painter& painter, MarkScale scale, const core::picture::SheetView& view,
+              const Eigen::Vector2d& center_mm, double radius_mm, RimMark mark) {
   constexpr int kCorners = 180;
   bool drawing = false;
   PixelPoint before;
@@ -42,7 +45,7 @@ void draw_circle(Painter& painter, const core::picture::SheetView& view,
         Eigen::Vector2d(center_mm + radius_mm * Eigen::Vector2d(std::cos(angle), std::sin(angle))));
     const PixelPoint here = pixel ? nearest(pixel->x(), pixel->y()) : PixelPoint{};
     if (pixel && drawing) {
-      painter.line(before, here, 1, colour);
+      core::overlay::draw_rim_stretch(painter, scale, before, here, mark);
     }
     drawing = pixel.has_value();
     before = here;
@@ -62,6 +65,7 @@ core::RgbImageView draw_pose(const core::ImageView& still,
                                    3 * still.width_px};
   core::overlay::copy_grey(still, picture);
   Painter painter(picture);
+  const MarkScale scale(still.width_px);
   const core::pose::PoseEstimate& pose = outcome.pose.estimate;
   const core::picture::SheetView view(model.camera, pose.T_camera_sheet);
   for (const core::pose::PictureTube& tube : outcome.tubes) {
@@ -69,23 +73,25 @@ core::RgbImageView draw_pose(const core::ImageView& still,
                                        outcome.pose.rims[tube.rim].diameter_mm > 0.0
                                    ? outcome.pose.rims[tube.rim].diameter_mm
                                    : model.bore_mm;
-    draw_circle(painter, view, model.center_mm(tube.address), diameter_mm / 2.0, colour_of(tube));
+    draw_rim(painter, scale, view, model.center_mm(tube.address), diameter_mm / 2.0, mark_of(tube));
   }
+  std::vector<core::overlay::Estimate> named;
   for (const core::pose::PictureTube& tube : outcome.tubes) {
     if (tube.rim >= 0) {
       for (const core::picture::RimPoint& point : rims[tube.rim].points) {
-        painter.pixel(nearest(point.u_px, point.v_px), palette::kWhite);
+        core::overlay::draw_edge_point(painter, scale, nearest(point.u_px, point.v_px));
       }
-      painter.cross_hair(nearest(tube.u_px, tube.v_px), 0, 3, 1, colour_of(tube));
-    } else {
-      painter.diagonal_cross(nearest(tube.u_px, tube.v_px), 3, 1, colour_of(tube));
     }
+    const PixelPoint center = nearest(tube.u_px, tube.v_px);
+    core::overlay::draw_rim_centre(painter, scale, center, mark_of(tube));
+    named.push_back({tube.address, {center.u_px * 65'536, center.v_px * 65'536}, {}});
   }
+  core::overlay::draw_addresses(painter, scale, named);
   if (has_tool) {
     const auto axis =
         view.to_pixel(core::pose::offset_from_nearest(model, pose.T_sheet_tool).axis_mm);
     if (axis) {
-      painter.cross_hair(nearest(axis->x(), axis->y()), 2, 9, 2, palette::kTool);
+      core::overlay::draw_axis_point(painter, scale, nearest(axis->x(), axis->y()));
     }
   }
   return picture;

@@ -9,10 +9,10 @@
 
 namespace tubesight::board {
 
-/// Draws what a pose was made from: each fitted rim as the pose projects it, through the lens
-/// (green used, orange measured and rejected, grey not measured, magenta no dark inside), the edge
-/// points (white), the images of the tubes' centres, and the place where the guidetube's axis meets
-/// the sheet (blue). `pixels` is replaced; the view is valid as long as it is.
+/// Draws what a pose was made from: each tube-end's rim as the pose projects it, through the lens,
+/// and a mark at the image of its centre (core/overlay/still_marks.h), the edge points (white), the
+/// addresses where there is room, and the place where the guidetube's axis meets the sheet (pale
+/// ring). `pixels` is replaced; the view is valid as long as it is.
 [[nodiscard]] core::RgbImageView draw_pose(const core::ImageView& still,
                                            const core::pose::PictureOutcome& outcome,
                                            const core::picture::RimList& rims,

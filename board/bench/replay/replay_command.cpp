@@ -20,6 +20,7 @@
 #include "board/bench/replay/replay_statistics.h"
 #include "board/bench/replay/summary_text.h"
 #include "board/box/pose_service.h"
+#include "core/overlay/overlay.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
 #include "drivers/files/pairs_file.h"
@@ -158,7 +159,9 @@ class Replay {
     }
     if (!options_.overlay.empty()) {
       overlay_ = make_overlay_sink(options_.overlay);
-      if (!overlay_->open(grabber_->header(), grabber_->interlaced())) {
+      drivers::Y4mHeader shown = grabber_->header();
+      shown.height_px = core::overlay::overlay_height_px(shown.width_px, shown.height_px);
+      if (!overlay_->open(shown, grabber_->interlaced())) {
         tell(overlay_->message());
         return false;
       }

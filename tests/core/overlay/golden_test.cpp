@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/overlay/legend.h"
 #include "tests/core/overlay/png_picture.h"
 #include "tests/core/overlay/scenes.h"
 
@@ -52,6 +53,19 @@ TEST(OverlayGolden, EverySceneIsDrawnPixelForPixel) {
                     << " (look at it; if it is right, put it in place of the golden one, and its "
                     << "digest 0x" << std::hex << digest_of(actual) << " into scenes.cpp)";
     }
+  }
+}
+
+TEST(OverlayLegend, OfTheDocumentsIsWhatTheProgramDraws) {
+  const std::string path = std::string(TUBESIGHT_SOURCE_DIR) + "/docs/pictures/overlay-legend.png";
+  const Picture actual = draw_legend();
+  const auto shown = read_png(path);
+  const std::string found = shown ? difference(*shown, actual) : "cannot be read";
+  if (!found.empty()) {
+    const std::string written = std::string(TUBESIGHT_ACTUAL_DIR) + "/overlay-legend.png";
+    EXPECT_TRUE(write_png(written, actual));
+    ADD_FAILURE() << path << ": " << found << "; as drawn: " << written
+                  << " (look at it, and put it in place of the old one)";
   }
 }
 

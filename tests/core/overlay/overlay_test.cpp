@@ -1,8 +1,6 @@
 #include "core/overlay/overlay.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <random>
@@ -25,13 +23,11 @@ using tests::point_milli;
 constexpr std::int32_t kWidth = 635;
 constexpr std::int32_t kHeight = 480;
 
-// Line where the readout's box begins.
-std::int32_t box_top(const Canvas& canvas) {
-  return canvas.height() - readout_height_px(canvas.width(), canvas.height());
-}
+// An overlay of the camera's picture.
+Canvas display() { return Canvas(kWidth, overlay_height_px(kWidth, kHeight)); }
 
 std::vector<PixelPoint> marks_of(const Canvas& canvas, Rgb colour) {
-  return canvas.pixels_of(colour, box_top(canvas));
+  return canvas.pixels_of(colour, kHeight);
 }
 
 OverlayInput empty_input() {
@@ -58,16 +54,35 @@ TEST(CopyGrey, PutsTheSameValueIntoThreeChannels) {
   EXPECT_TRUE(canvas.guards_intact());
 }
 
-TEST(CopyGreyDeathTest, RefusesAnotherSize) {
-  const std::array<std::uint8_t, 8> grey{};
+TEST(CopyGrey, LeavesTheLinesBelowAlone) {
+  const std::array<std::uint8_t, 2> grey{10, 20};
   Canvas canvas(2, 3);
+  canvas.set(0, 1, {1, 2, 3});
 
-  EXPECT_DEATH(copy_grey({grey.data(), 2, 2, 4}, canvas.view()), "");
+  copy_grey({grey.data(), 2, 1, 2}, canvas.view());
+
+  EXPECT_EQ(canvas.at(1, 0), (Rgb{20, 20, 20}));
+  EXPECT_EQ(canvas.at(0, 1), (Rgb{1, 2, 3}));
 }
 
-TEST(Overlay, WithoutKnowledgeDrawsTheReadoutAlone) {
-  Canvas canvas(kWidth, kHeight);
-  for (std::int32_t v = 0; v < kHeight; ++v) {
+TEST(CopyGreyDeathTest, RefusesAnotherWidthAndTooFewLines) {
+  const std::array<std::uint8_t, 8> grey{};
+  Canvas wide(3, 2);
+  Canvas low(2, 1);
+
+  EXPECT_DEATH(copy_grey({grey.data(), 2, 2, 4}, wide.view()), "");
+  EXPECT_DEATH(copy_grey({grey.data(), 2, 2, 4}, low.view()), "");
+}
+
+TEST(OverlayDeathTest, RefusesAPictureThatTheReadoutWouldFill) {
+  Canvas canvas(kWidth, readout_height_px(kWidth));
+
+  EXPECT_DEATH(draw_overlay(canvas.view(), empty_input()), "");
+}
+
+TEST(Overlay, WithoutKnowledgeLeavesTheWholeCamerasPictureAlone) {
+  Canvas canvas = display();
+  for (std::int32_t v = 0; v < canvas.height(); ++v) {
     for (std::int32_t u = 0; u < kWidth; ++u) {
       canvas.set(u, v, {7, 8, 9});
     }
@@ -75,118 +90,30 @@ TEST(Overlay, WithoutKnowledgeDrawsTheReadoutAlone) {
 
   draw_overlay(canvas.view(), empty_input());
 
-  const auto untouched = marks_of(canvas, {7, 8, 9});
-  EXPECT_EQ(untouched.size(), static_cast<std::size_t>(kWidth * box_top(canvas)));
+  EXPECT_GT(canvas.height(), kHeight);
+  EXPECT_EQ(canvas.pixels_of({7, 8, 9}, kHeight).size(), std::size_t{kWidth} * kHeight);
+  EXPECT_EQ(canvas.pixels_of({7, 8, 9}, canvas.height()).size(), std::size_t{kWidth} * kHeight);
 }
 
-class ToolCrossHair : public testing::TestWithParam<std::array<std::int64_t, 2>> {};
-
-TEST_P(ToolCrossHair, StandsOnTheNearestPixel) {
-  const auto [u_milli, v_milli] = GetParam();
-  for (const bool aligned : {false, true}) {
-    Canvas canvas(kWidth, kHeight);
-    OverlayInput input = empty_input();
-    input.sighting.tool_known = true;
-    input.sighting.tool_px = point_milli(u_milli, v_milli);
-    input.sighting.aligned = aligned;
-
-    draw_overlay(canvas.view(), input);
-
-    const auto blue = marks_of(canvas, palette::kTool);
-    ASSERT_FALSE(blue.empty());
-    const PixelPoint center = centroid_milli(blue);
-    EXPECT_LE(std::abs(center.u_px - u_milli), 501);
-    EXPECT_LE(std::abs(center.v_px - v_milli), 501);
-    // Large: some 50 px to each side, and symmetrical.
-    const auto [left, right] = std::minmax_element(
-        blue.begin(), blue.end(),
-        [](const PixelPoint& a, const PixelPoint& b) { return a.u_px < b.u_px; });
-    EXPECT_EQ(right->u_px - left->u_px, 104);
-    EXPECT_EQ(blue.back().v_px - blue.front().v_px, 104);
-    // The middle tells whether the box vouches for the tube.
-    const PixelPoint middle = nearest_pixel(input.sighting.tool_px);
-    EXPECT_EQ(canvas.at(middle.u_px, middle.v_px) == palette::kTool, aligned);
-  }
+TEST(Overlay, APictureTooNarrowForTheReadoutHasNone) {
+  EXPECT_EQ(overlay_height_px(319, 240), 240);
+  EXPECT_GT(overlay_height_px(320, 240), 240);
 }
-
-INSTANTIATE_TEST_SUITE_P(Places, ToolCrossHair,
-                         testing::Values(std::array<std::int64_t, 2>{318'000, 190'000},
-                                         std::array<std::int64_t, 2>{100'400, 90'600},
-                                         std::array<std::int64_t, 2>{200'499, 300'501},
-                                         std::array<std::int64_t, 2>{580'999, 53'001}));
 
 TEST(Overlay, ToolIsDrawnOnlyWhenKnown) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   input.sighting.tool_px = point_milli(300'000, 200'000);
   input.sighting.aligned = true;  // contradicts tool_known: nothing may be vouched for
 
   draw_overlay(canvas.view(), input);
 
-  EXPECT_TRUE(canvas.pixels_of(palette::kTool, kHeight).empty());
+  EXPECT_TRUE(canvas.pixels_of(palette::kTool, canvas.height()).empty());
   EXPECT_FALSE(canvas.find_text("ALIGNED", 2, palette::kBlack).has_value());
 }
 
-struct AxesCase {
-  std::int64_t row_u;  // from the primary tube to the next row's, px
-  std::int64_t row_v;
-  std::int64_t column_u;
-  std::int64_t column_v;
-};
-
-class Axes : public testing::TestWithParam<AxesCase> {};
-
-// Each pixel of an axis lies on the ray from the primary tube to its neighbour, as far as the brush
-// and the arrow head allow, and the farthest one stands at four fifths of the way.
-void expect_axis(const std::vector<PixelPoint>& pixels, PixelPoint origin, std::int64_t du,
-                 std::int64_t dv) {
-  ASSERT_GT(pixels.size(), 60U);
-  const double length = std::hypot(static_cast<double>(du), static_cast<double>(dv));
-  double farthest = 0.0;
-  for (const PixelPoint& pixel : pixels) {
-    const double u = pixel.u_px - origin.u_px;
-    const double v = pixel.v_px - origin.v_px;
-    const double along = (u * static_cast<double>(du) + v * static_cast<double>(dv)) / length;
-    const double across = (u * static_cast<double>(dv) - v * static_cast<double>(du)) / length;
-    farthest = std::max(farthest, along);
-    EXPECT_GE(along, 0.0);
-    // The head is 5 px to each side, the brush reaches 1.42 px, rounding 0.71 px and 0.25 px more.
-    EXPECT_LE(std::abs(across), along < 0.8 * length - 14.0 ? 2.4 : 7.4);
-  }
-  // The brush reaches 1 to 1.42 px beyond the tip, which is rounded by up to 0.71 px.
-  EXPECT_NEAR(farthest, 0.8 * length + 1.0, 1.2);
-}
-
-TEST_P(Axes, PointAlongPositiveRowAndColumn) {
-  const AxesCase& axes = GetParam();
-  const PixelPoint origin{300, 200};
-  Canvas canvas(kWidth, kHeight);
-  OverlayInput input = empty_input();
-  input.sighting.primary_known = true;
-  input.sighting.primary_px = point_milli(300'000, 200'000);
-  input.next_row_px = point_milli(1000 * (300 + axes.row_u), 1000 * (200 + axes.row_v));
-  input.next_column_px = point_milli(1000 * (300 + axes.column_u), 1000 * (200 + axes.column_v));
-
-  draw_overlay(canvas.view(), input);
-
-  const auto corner = marks_of(canvas, palette::kWhite);
-  ASSERT_EQ(corner.size(), 25U);
-  EXPECT_EQ(centroid_milli(corner), (PixelPoint{300'000, 200'000}));
-  expect_axis(marks_of(canvas, palette::kRow), origin, axes.row_u, axes.row_v);
-  expect_axis(marks_of(canvas, palette::kColumn), origin, axes.column_u, axes.column_v);
-}
-
-INSTANTIATE_TEST_SUITE_P(Directions, Axes,
-                         testing::Values(AxesCase{0, 60, 80, 0},       // as in the recordings
-                                         AxesCase{80, 0, 0, -60},      // camera turned by 90 deg
-                                         AxesCase{0, -60, -80, 0},     // by 180 deg
-                                         AxesCase{0, 60, -80, 0},      // left-handed
-                                         AxesCase{40, 55, 82, -3},     // triangular
-                                         AxesCase{-61, -43, 50, -52},  // turned by 45 deg
-                                         AxesCase{-7, 90, -100, -21}));
-
 TEST(Overlay, AnUnknownDirectionIsLeftOut) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   input.sighting.primary_known = true;
   input.sighting.primary_px = point_milli(300'000, 200'000);
@@ -199,7 +126,7 @@ TEST(Overlay, AnUnknownDirectionIsLeftOut) {
 }
 
 TEST(Overlay, TubeEndsAreMarkedByKindAtTheirCentres) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   std::array<TubeSighting, 3> tubes{tube_at(100'300, 80'700), tube_at(200'600, 90'200),
                                     tube_at(300'100, 100'900)};
@@ -216,7 +143,7 @@ TEST(Overlay, TubeEndsAreMarkedByKindAtTheirCentres) {
 }
 
 TEST(Overlay, EveryUsedTubeEndHasItsCrossHair) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   std::vector<TubeSighting> tubes;
   for (std::int32_t i = 0; i < kMaxTubesInView; ++i) {
@@ -240,10 +167,10 @@ TEST(Overlay, PrimaryTubeHasTheAxesInPlaceOfACrossHairUnlessItIsRejected) {
   input.sighting.primary = tubes[0].address;
   input.sighting.primary_px = tubes[0].center_px;
   input.tubes = tubes;
-  Canvas used(kWidth, kHeight);
+  Canvas used = display();
   draw_overlay(used.view(), input);
   tubes[0].quality_permyriad = 0;
-  Canvas rejected(kWidth, kHeight);
+  Canvas rejected = display();
   draw_overlay(rejected.view(), input);
 
   EXPECT_TRUE(marks_of(used, palette::kUsed).empty());
@@ -251,7 +178,7 @@ TEST(Overlay, PrimaryTubeHasTheAxesInPlaceOfACrossHairUnlessItIsRejected) {
 }
 
 TEST(Overlay, SearchWindowIsDrawnOnItsOwnOutermostPixels) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   input.window = PixelBox{40, 36, 595, 330};
 
@@ -266,7 +193,7 @@ TEST(Overlay, SearchWindowIsDrawnOnItsOwnOutermostPixels) {
 }
 
 TEST(Overlay, OptimumAndAxisPointStandOnTheirPixels) {
-  Canvas canvas(kWidth, kHeight);
+  Canvas canvas = display();
   OverlayInput input = empty_input();
   input.optimum_px = point_milli(317'600, 190'400);
   input.sighting.axis_known = true;
@@ -281,7 +208,7 @@ TEST(Overlay, OptimumAndAxisPointStandOnTheirPixels) {
 TEST(Overlay, MarksThatLeaveThePictureNeverComeInOnTheOtherSide) {
   // The centre lies up to the mark's size outside; nothing may appear in the opposite half.
   for (const auto& [u, v] : {std::pair{-3, 200}, {638, 200}, {300, -4}, {-2, -2}, {640, -6}}) {
-    Canvas canvas(kWidth, kHeight);
+    Canvas canvas = display();
     OverlayInput input = empty_input();
     const std::array<TubeSighting, 1> tubes{tube_at(1000 * u, 1000 * v)};
     input.tubes = tubes;
@@ -293,11 +220,15 @@ TEST(Overlay, MarksThatLeaveThePictureNeverComeInOnTheOtherSide) {
     input.sighting.primary_px = tubes[0].center_px;
     input.next_row_px = point_milli(1000 * u, 1000 * (v + 60));
     input.next_column_px = point_milli(1000 * (u + 20), 1000 * v);
+    const std::array<Click, 1> clicks{Click{tubes[0].center_px, {3, 4}, ClickVerdict::kBlamed}};
+    input.news.clicks = clicks;
+    input.news.claimed_px = tubes[0].center_px;
 
     draw_overlay(canvas.view(), input);
 
-    for (const Rgb colour : {palette::kTool, palette::kUsed, palette::kRow, palette::kColumn,
-                             palette::kAxis, palette::kWhite}) {
+    for (const Rgb colour :
+         {palette::kTool, palette::kUsed, palette::kRow, palette::kColumn, palette::kAxis,
+          palette::kWhite, palette::kClaim, palette::kClickRefused}) {
       for (const PixelPoint& pixel : marks_of(canvas, colour)) {
         EXPECT_LE(std::abs(pixel.u_px - u), 60) << u << ", " << v;
         EXPECT_LE(std::abs(pixel.v_px - v), 60) << u << ", " << v;
@@ -307,52 +238,139 @@ TEST(Overlay, MarksThatLeaveThePictureNeverComeInOnTheOtherSide) {
   }
 }
 
-// Any bits may arrive here when the tracker is lost: no input may write outside the picture.
-TEST(Overlay, AnyInputLeavesTheBytesAroundThePictureAlone) {
-  constexpr unsigned kSeed = 20'240'611;
-  std::mt19937 random(kSeed);
-  const auto number = [&]() -> std::int32_t {
+// Every mark with its point on the camera's last line, and then far above.
+TEST(Overlay, NoMarkReachesTheReadout) {
+  const auto drawn_at = [](std::int64_t v_px) {
+    Canvas canvas = display();
+    OverlayInput input = empty_input();
+    const ImagePoint at = point_milli(300'000, 1000 * v_px);
+    Sighting& s = input.sighting;
+    s.tool_known = s.primary_known = true;
+    s.tool_px = s.primary_px = at;
+    input.next_row_px = point_milli(300'000, 1000 * (v_px + 60));
+    input.next_column_px = point_milli(380'000, 1000 * v_px);
+    const std::array<TubeSighting, 1> tubes{TubeSighting{{9, 9}, at, 0, true}};
+    input.tubes = tubes;
+    const std::array<Estimate, 1> estimates{Estimate{{9, 9}, at, TubeState::kPlugged}};
+    input.estimates = estimates;
+    const std::array<Click, 1> clicks{Click{at, {9, 9}, ClickVerdict::kTaken}};
+    input.news.clicks = clicks;
+    input.news.claimed_px = at;
+    input.optimum_px = at;
+    draw_overlay(canvas.view(), input);
+    std::vector<Rgb> below;
+    for (std::int32_t v = kHeight; v < canvas.height(); ++v) {
+      for (std::int32_t u = 0; u < kWidth; ++u) {
+        below.push_back(canvas.at(u, v));
+      }
+    }
+    return below;
+  };
+
+  EXPECT_EQ(drawn_at(kHeight - 1), drawn_at(-1000));
+}
+
+TEST(Overlay, MarksGrowWithThePicturesWidth) {
+  for (const std::int32_t times : {1, 2, 3}) {
+    const std::int32_t width = 640 * times;
+    const std::int32_t height = 480 * times;
+    Canvas canvas(width, overlay_height_px(width, height));
+    OverlayInput input = empty_input();
+    const std::array<TubeSighting, 1> tubes{tube_at(200'000 * times, 200'000 * times)};
+    input.tubes = tubes;
+    input.sighting.tool_known = true;
+    input.sighting.tool_px = point_milli(400'000 * times, 200'000 * times);
+
+    draw_overlay(canvas.view(), input);
+
+    const auto size_of = [&](Rgb colour) {
+      const auto pixels = canvas.pixels_of(colour, height);
+      return pixels.back().v_px - pixels.front().v_px + 1;
+    };
+    EXPECT_EQ(size_of(palette::kUsed), 10 * times + 1);
+    EXPECT_EQ(size_of(palette::kTool), 2 * 38 * times + 1);
+    // A brush as thick as the picture is large.
+    EXPECT_EQ(canvas.pixels_of(palette::kUsed, 196 * times).size(),
+              static_cast<std::size_t>(times * times));
+  }
+}
+
+// Numbers as they may stand in uninitialised or mistaken bytes, the outermost often among them.
+class AnyNumbers {
+ public:
+  explicit AnyNumbers(unsigned seed) : random_(seed) {}
+
+  std::int32_t below(unsigned limit) { return static_cast<std::int32_t>(random_() % limit); }
+  bool coin() { return random_() % 2 == 0; }
+  std::int32_t number() {
     constexpr std::array<std::int32_t, 6> kEdges{std::numeric_limits<std::int32_t>::min(),
                                                  std::numeric_limits<std::int32_t>::max(),
                                                  0,
                                                  -1,
                                                  635 * 65536,
                                                  480};
-    return random() % 3 == 0 ? kEdges[random() % kEdges.size()]
-                             : static_cast<std::int32_t>(random());
-  };
-  const auto point = [&] { return ImagePoint{number(), number()}; };
-  for (int round = 0; round < 300; ++round) {
-    Canvas canvas(1 + static_cast<std::int32_t>(random() % 700),
-                  1 + static_cast<std::int32_t>(random() % 300));
-    OverlayInput input;
-    Sighting& s = input.sighting;
-    s.time = FieldTime(std::int64_t{number()} * 4'294'967'295);
-    s.state = static_cast<TrackState>(random() % 4);
-    s.reason = static_cast<Reason>(random() % 15);
+    return random_() % 3 == 0 ? kEdges[random_() % kEdges.size()]
+                              : static_cast<std::int32_t>(random_());
+  }
+  std::int64_t large() { return std::int64_t{number()} * 4'294'967'295; }
+  ImagePoint point() { return {number(), number()}; }
+  TubeAddress address() { return {number(), number()}; }
+
+  Sighting sighting() {
+    Sighting s;
+    s.time = FieldTime(large());
+    s.state = static_cast<TrackState>(below(4));
+    s.reason = static_cast<Reason>(below(21));
     s.tracked = number();
-    s.primary_known = s.axis_known = s.tool_known = true;
-    s.primary = {number(), number()};
-    s.tool = {number(), number()};
+    s.primary_known = s.axis_known = s.tool_known = s.judged = true;
+    s.primary = address();
+    s.tool = address();
     s.primary_px = point();
     s.axis_px = point();
     s.tool_px = point();
     s.height_um_q8 = number();
     s.offset_um_q8 = number();
-    s.aligned = random() % 2 == 0;
+    s.residual_px_q16 = number();
+    s.aligned = coin();
+    return s;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+// Any bits may arrive here when the tracker is lost: no input may write outside the picture.
+TEST(Overlay, AnyInputLeavesTheBytesAroundThePictureAlone) {
+  constexpr unsigned kSeed = 20'240'611;
+  AnyNumbers any(kSeed);
+  for (int round = 0; round < 300; ++round) {
+    const std::int32_t width_px = 1 + any.below(700);
+    Canvas canvas(width_px, overlay_height_px(width_px, 1 + any.below(300)));
+    OverlayInput input;
+    input.sighting = any.sighting();
     const std::array<TubeSighting, 2> tubes{
-        TubeSighting{{number(), number()}, point(), number(), false},
-        TubeSighting{{number(), number()}, point(), number(), true}};
+        TubeSighting{any.address(), any.point(), any.number(), false},
+        TubeSighting{any.address(), any.point(), any.number(), true}};
     const std::array<Estimate, 2> estimates{
-        Estimate{{number(), number()}, point(), TubeState::kOpen},
-        Estimate{{number(), number()}, point(), TubeState::kAbsent}};
+        Estimate{any.address(), any.point(), TubeState::kOpen},
+        Estimate{any.address(), any.point(), TubeState::kAbsent}};
+    const std::array<Click, 2> clicks{Click{any.point(), any.address(), ClickVerdict::kBlamed},
+                                      Click{any.point(), any.address(), ClickVerdict::kTaken}};
     input.tubes = tubes;
     input.estimates = estimates;
-    input.window = PixelBox{number(), number(), number(), number()};
-    input.optimum_px = point();
-    input.next_row_px = point();
-    input.next_column_px = point();
-    input.field = std::int64_t{number()} * 4'294'967'295;
+    input.window = PixelBox{any.number(), any.number(), any.number(), any.number()};
+    input.optimum_px = any.point();
+    input.next_row_px = any.point();
+    input.next_column_px = any.point();
+    input.tool_rim = HalfSize{any.number(), any.number()};
+    input.aligned_within_um_q8 = any.number();
+    input.news.clicks = clicks;
+    input.news.refusal = static_cast<StartRefusal>(any.below(14));
+    input.news.claim =
+        ClaimReply{any.address(), static_cast<ClaimVerdict>(any.below(3)),
+                   static_cast<ClaimDoubt>(any.below(9)), any.address(), any.number()};
+    input.news.claimed_px = any.point();
+    input.field = any.large();
 
     draw_overlay(canvas.view(), input);
 

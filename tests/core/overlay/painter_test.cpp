@@ -253,6 +253,36 @@ TEST(PainterCircle, OfRadiusThree) {
             ".........\n");
 }
 
+TEST(PainterRing, FillsWhatLiesBetweenTwoRadii) {
+  Canvas ring(9, 9);
+  Canvas disc(9, 9);
+
+  Painter(ring.view()).ring({4, 4}, 2, 3, kInk);
+  Painter(disc.view()).ring({3, 8}, 0, 2, kInk);
+
+  EXPECT_EQ(ring.drawn(kInk),
+            ".........\n"
+            "...###...\n"
+            "..#####..\n"
+            ".##...##.\n"
+            ".##...##.\n"
+            ".##...##.\n"
+            "..#####..\n"
+            "...###...\n"
+            ".........\n");
+  EXPECT_EQ(disc.drawn(kInk),
+            ".........\n"
+            ".........\n"
+            ".........\n"
+            ".........\n"
+            ".........\n"
+            ".........\n"
+            "..###....\n"
+            ".#####...\n"
+            ".#####...\n");
+  EXPECT_TRUE(disc.guards_intact());
+}
+
 TEST(PainterCircle, OfAnyRadiusStaysWithinAPixelAndClosed) {
   for (const std::int32_t radius : {0, 1, 2, 5, 17, 60}) {
     Canvas canvas(2 * radius + 3, 2 * radius + 3);

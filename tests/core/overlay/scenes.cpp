@@ -83,11 +83,14 @@ std::vector<TubeSighting> tubes_in(const Lattice& lattice, const core::PixelBox&
   return tubes;
 }
 
-Picture draw(const Lattice& lattice, const OverlayInput& input, std::int32_t width,
-             std::int32_t height) {
+Picture draw(const Lattice& lattice, OverlayInput input, std::int32_t width, std::int32_t height) {
+  input.tool_rim = core::overlay::HalfSize{lattice.radius, lattice.radius};
+  input.aligned_within_um_q8 = 2'500 * 256;
   const std::vector<std::uint8_t> grey = grey_picture(lattice, width, height);
-  Picture picture{width, height, std::vector<std::uint8_t>(grey.size() * 3)};
-  const core::RgbImageView view{picture.bytes.data(), width, height, 3 * width};
+  const std::int32_t whole = core::overlay::overlay_height_px(width, height);
+  Picture picture{width, whole,
+                  std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * whole))};
+  const core::RgbImageView view{picture.bytes.data(), width, whole, 3 * width};
   core::overlay::copy_grey({grey.data(), width, height, width}, view);
   core::overlay::draw_overlay(view, input);
   return picture;
@@ -143,6 +146,11 @@ Picture draw_between() {
   s.offset_um_q8 = 8'120 * 256;
   input.next_row_px = lattice.point({-2, 118});
   input.next_column_px = lattice.point({-3, 119});
+  s.judged = true;
+  s.residual_px_q16 = 7'000;
+  input.news.claim = core::ClaimReply{
+      {-4, 116}, core::ClaimVerdict::kContradicted, core::ClaimDoubt::kNone, {-4, 115}, 8};
+  input.news.claimed_px = lattice.point({-4, 116});
   return draw(lattice, input, 635, 480);
 }
 
@@ -155,6 +163,17 @@ Picture draw_lost() {
   input.sighting.time = core::FieldTime(20'050'000'000);
   input.sighting.state = core::TrackState::kLost;
   input.sighting.reason = core::Reason::kJump;
+  const auto beside = [&](TubeAddress tube) {
+    const ImagePoint centre = lattice.point(tube);
+    return ImagePoint{centre.u_q16 + 8 * 65536, centre.v_q16 - 5 * 65536};
+  };
+  using core::overlay::Click;
+  using core::overlay::ClickVerdict;
+  const std::array<Click, 3> clicks{Click{beside({40, 60}), {40, 60}, ClickVerdict::kRefused},
+                                    Click{beside({41, 60}), {41, 60}, ClickVerdict::kRefused},
+                                    Click{beside({40, 60}), {40, 61}, ClickVerdict::kBlamed}};
+  input.news.clicks = clicks;
+  input.news.refusal = core::StartRefusal::kSameTubeTwice;
   return draw(lattice, input, 635, 480);
 }
 
@@ -210,11 +229,11 @@ Picture draw_small() {
 }
 
 constexpr std::array<Scene, 5> kScenes{{
-    {"aligned", 0x3b0d68499ef9250fU, draw_aligned},
-    {"between", 0x3ea540e417cc483bU, draw_between},
-    {"estimates", 0x2b6ef5d4de2fb17cU, draw_estimates},
-    {"lost", 0x11993904bbf2ab4dU, draw_lost},
-    {"small", 0xe63def4cc5386b47U, draw_small},
+    {"aligned", 0x25a40944064a65e9U, draw_aligned},
+    {"between", 0x30eb3181dfc4a5f1U, draw_between},
+    {"estimates", 0xd9acd7ef9cd3b420U, draw_estimates},
+    {"lost", 0x5d774d1cea3f06e3U, draw_lost},
+    {"small", 0x3a598b1cf4b7d1f6U, draw_small},
 }};
 
 }  // namespace
