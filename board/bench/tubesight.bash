@@ -18,7 +18,7 @@ _tubesight() {
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
-      -*) _tubesight_words -h --help --version ;;
+      -*) _tubesight_words -h --help -V --version ;;
       *) _tubesight_words replay pose look calibrate budget simulate campaign devices ;;
     esac
     return
