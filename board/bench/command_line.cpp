@@ -17,6 +17,7 @@
 #include "board/bench/campaign_arguments.h"
 #include "board/bench/devices/devices_command.h"
 #include "board/bench/look/look_command.h"
+#include "board/bench/new_arguments.h"
 #include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
@@ -276,7 +277,8 @@ ExitStatus put_in_place_together(Command command) {
 class Commands {
  public:
   explicit Commands(CLI::App& app)
-      : replay_(add_replay(app, replay_options_, scalar_)),
+      : made_(add_new(app, new_options_)),
+        replay_(add_replay(app, replay_options_, scalar_)),
         pose_(add_pose(app, pose_options_)),
         look_(add_look(app, look_options_)),
         calibrate_(add_calibrate(app, calibrate_arguments_)),
@@ -294,6 +296,9 @@ class Commands {
 
  private:
   ExitStatus run_named() {
+    if (made_->parsed()) {
+      return run_new(new_options_);
+    }
     if (devices_->parsed()) {
       return run_devices(devices_options_);
     }
@@ -316,6 +321,7 @@ class Commands {
     return replay_->parsed() ? run_replay(replay_options_) : ExitStatus::kWrongInput;
   }
 
+  NewOptions new_options_;
   ReplayOptions replay_options_;
   std::string scalar_ = "fixed";
   PoseCommandOptions pose_options_;
@@ -325,6 +331,7 @@ class Commands {
   CampaignOptions campaign_options_;
   SimulateOptions simulate_options_;
   DevicesOptions devices_options_;
+  const CLI::App* made_;
   const CLI::App* replay_;
   const CLI::App* pose_;
   const CLI::App* look_;

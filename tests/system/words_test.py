@@ -5,6 +5,7 @@ Usage: words_test.py PROGRAM REPOSITORY
 """
 import os
 import pathlib
+import pty
 import signal
 import subprocess
 import sys
@@ -14,7 +15,7 @@ import unittest
 
 PROGRAM = ""
 REPOSITORY = pathlib.Path()
-COMMANDS = ["replay", "pose", "look", "calibrate", "budget", "campaign", "simulate", "devices"]
+COMMANDS = ["new", "replay", "pose", "look", "calibrate", "budget", "campaign", "simulate", "devices"]
 PLATE = "tests/data/stills/square_flush"
 
 
@@ -142,8 +143,11 @@ class Words(Folder):
                "distortion_coefficients: [-0.1, 0.01, 0, 0, 0]\n"
         (self.folder / "c.yaml").write_text(yaml)
         (self.folder / "folds.yaml").write_text(yaml.replace("-0.1, 0.01", "-3, 0"))
+        told = ["--efl-mm", "5", "--pixel-um", "8", "--pitch-mm", "25.4", "--bore-mm", "18.6"]
         none = "none.toml"
         table = {
+            "new": [(0, ["new", "a/n.toml", "--from", self.still, *told]), (2, ["new", "s.toml", "--from", self.still]),
+                    (1, ["new", "no/n.toml", "--from", self.still, *told])],
             "replay": [(2, ["replay", none, "r.y4m.xz"]), (2, ["replay", "s.toml", "none.y4m"])],
             "pose": [(1, ["pose", REPOSITORY / PLATE / "session.toml", self.still, "--csv", "/dev/full"]),
                      (2, ["pose", none, self.still])],
@@ -237,6 +241,67 @@ class Words(Folder):
         result = subprocess.run(["sh", "-c", "trap '' INT; \"$0\" look \"$1\" & kill -INT $!; wait $!", PROGRAM,
                                  str(self.still)], cwd=self.folder, capture_output=True, check=False)
         self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class New(Folder):
+    """`tubesight new`, asked and told."""
+
+    TOLD = ["--efl-mm", "5.06", "--pixel-um", "9.95,9.8", "--pitch-mm", "25.4", "--bore-mm", "18.6"]
+
+    def test_writes_what_replay_reads(self):
+        result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", *self.TOLD, "--at", "40,60",
+                     stdin=subprocess.DEVNULL)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("635 x 480 px, 30 frames a second, even-first", result.stdout)
+        text = (self.folder / "n.toml").read_text()
+        for words in ['scan = "even-first"', "NOT CALIBRATED", "CHECK THESE", "row = 40, column = 60"]:
+            self.assertIn(words, text)
+        replay = run(self.folder, "replay", "n.toml", "r.y4m.xz", "--fields", "f.csv")
+        self.assertEqual(replay.returncode, 0, replay.stderr)
+        rows = (self.folder / "f.csv").read_text().splitlines()
+        self.assertEqual(rows[1].split(",")[4], "tracking", rows[1])
+        again = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", *self.TOLD, stdin=subprocess.DEVNULL)
+        self.assertEqual(again.returncode, 2)
+        self.assertIn("is there already", again.stderr)
+        self.assertEqual((self.folder / "n.toml").read_text(), text)
+
+    def test_tells_all_that_is_missing(self):
+        result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", "--pitch-mm", "far", stdin=subprocess.DEVNULL)
+        self.assertEqual(result.returncode, 2)
+        for words in ["--efl-mm: missing", "--pixel-um: missing", "--pitch-mm: 'far', expected", "--bore-mm: missing"]:
+            self.assertIn(words, result.stderr)
+        self.assertEqual(self.names(), self.there)
+
+    def test_asks_on_a_terminal(self):
+        leader, follower = pty.openpty()
+        with subprocess.Popen([PROGRAM, "new", "n.toml", "--from", "r.y4m.xz"], cwd=self.folder, stdin=follower,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            # A camera by its lens, a pixel, one answer that will not do, and the usual for the rest.
+            os.write(leader, b"5.06\n9.95,9.8\n\nfar\n25.4\n18.6\n\n\n40,60\n")
+            out, err = process.communicate(timeout=60)
+        os.close(leader)
+        os.close(follower)
+        self.assertEqual(process.returncode, 0, err)
+        self.assertIn(b"'far' will not do", err)
+        self.assertIn(b"three clicks", out)
+
+    def test_takes_a_calibrated_camera(self):
+        (self.folder / "c.yaml").write_text(
+            "cam0:\n  camera_model: pinhole\n  intrinsics: [620.0, 530.0, 324.0, 233.0]\n"
+            "  distortion_model: radtan\n  distortion_coeffs: [-0.1, 0.01, 0.0, 0.0]\n  resolution: [635, 480]\n")
+        result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", "--camera", "c.yaml", *self.TOLD[4:],
+                     stdin=subprocess.DEVNULL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("px RMS over the picture", result.stdout)
+        self.assertEqual(run(self.folder, "calibrate", "import", "c.yaml", "--out", "c.toml").returncode, 0)
+        result = run(self.folder, "new", "m.toml", "--from", self.still, "--camera", "c.toml", *self.TOLD[4:],
+                     stdin=subprocess.DEVNULL)
+        self.assertIn('include = ["c.toml"]', (self.folder / "m.toml").read_text(), result.stderr)
+        (self.folder / "c.yaml").write_text((self.folder / "c.yaml").read_text().replace("635", "636"))
+        wrong = run(self.folder, "new", "k.toml", "--from", "r.y4m.xz", "--camera", "c.yaml", *self.TOLD[4:],
+                    stdin=subprocess.DEVNULL)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("636 x 480 px, and r.y4m.xz has 635 x 480", wrong.stderr)
 
 
 if __name__ == "__main__":
