@@ -160,8 +160,9 @@ std::string explain_refusal(const CLI::App& app, const CLI::ParseError& problem)
   if (chosen.empty()) {
     for (const std::string& word : app.remaining()) {
       if (looks_like_option(word)) {
-        return "'" + word + "' is no option" + meant(word, options_of(app)) +
-               " A command comes first: " + joined(commands_of(app));
+        const std::string better = meant(word, options_of(app));
+        return "'" + word + "' is no option" + (better.empty() ? ":" : better) +
+               " a command comes first, one of " + joined(commands_of(app));
       }
     }
     return "no command, expected one of " + joined(commands_of(app));

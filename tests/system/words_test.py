@@ -63,7 +63,8 @@ class Words(Folder):
         self.expect(["REPLAY", "s.toml"], 2, "did you mean replay?")
         self.expect(["simulte"], 2, "did you mean simulate?")
         self.expect(["help", "rplay"], 2, "did you mean replay?")
-        self.expect(["--verison"], 2, "did you mean --version?")
+        self.expect(["--verison"], 2, "did you mean --version? a command comes first, one of")
+        self.expect(["--from"], 2, "'--from' is no option: a command comes first, one of")
         self.expect(["replay", "--feilds", "f.csv", "s.toml", "r.y4m.xz"], 2,
                     "replay: '--feilds' is no option, did you mean --fields?")
         self.expect(["replay", "s.toml", "--feilds=f.csv"], 2, "did you mean --fields?")
@@ -147,7 +148,7 @@ class Words(Folder):
         none = "none.toml"
         table = {
             "new": [(0, ["new", "a/n.toml", "--from", self.still, *told]), (2, ["new", "s.toml", "--from", self.still]),
-                    (1, ["new", "no/n.toml", "--from", self.still, *told])],
+                    (2, ["new", "no/n.toml", "--from", self.still, *told])],
             "replay": [(2, ["replay", none, "r.y4m.xz"]), (2, ["replay", "s.toml", "none.y4m"])],
             "pose": [(1, ["pose", REPOSITORY / PLATE / "session.toml", self.still, "--csv", "/dev/full"]),
                      (2, ["pose", none, self.still])],
@@ -271,6 +272,30 @@ class New(Folder):
         for words in ["--efl-mm: missing", "--pixel-um: missing", "--pitch-mm: 'far', expected", "--bore-mm: missing"]:
             self.assertIn(words, result.stderr)
         self.assertEqual(self.names(), self.there)
+
+    def test_tells_what_the_picture_contradicts(self):
+        base = ["new", "n.toml", "--from", "r.y4m.xz", *self.TOLD[:4]]
+        for more, status, words in [
+                (["--pitch-mm", "25.4", "--bore-mm", "9"], 0, "told a bore of 0.35 of the pitch, but in the first"),
+                (["--pitch-mm", "25.4", "--bore-mm", "18", "--lattice", "triangular"], 0, "as of a square lattice"),
+                (["--pitch-mm", "25.4", "--bore-mm", "18", "--lattice", "hexagonal"], 2, "--lattice: 'hexagonal', ex"),
+                (["--pitch-mm", "18.6", "--bore-mm", "25.4"], 2, "tubesheet.bore_mm: 25.4, expected less than the")]:
+            result = run(self.folder, *base, *more, stdin=subprocess.DEVNULL)
+            self.assertEqual(result.returncode, status, result.stderr)
+            self.assertIn(words, result.stderr)
+            self.assertEqual((self.folder / "n.toml").exists(), status == 0)
+            (self.folder / "n.toml").unlink(missing_ok=True)
+
+    def test_takes_the_camera_of_a_session(self):
+        result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", "--camera", "s.toml", *self.TOLD[4:],
+                     "--at", "-3,-4", stdin=subprocess.DEVNULL)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        text = (self.folder / "n.toml").read_text()
+        self.assertIn("# The camera: as in s.toml.", text)
+        self.assertIn("distortion_per_mm2 = 0.0092", text)
+        self.assertIn("row = -3, column = -4", text)
+        run(self.folder, "replay", "n.toml", "r.y4m.xz", "--fields", "f.csv")
+        self.assertEqual((self.folder / "f.csv").read_text().splitlines()[1].split(",")[4], "tracking")
 
     def test_asks_on_a_terminal(self):
         leader, follower = pty.openpty()

@@ -89,13 +89,18 @@ class NewRun {
       tell(options_.session + ": is there already, expected a new name: nothing is written over");
       return ExitStatus::kWrongInput;
     }
+    const fs::path folder = fs::absolute(options_.session, why).parent_path();
+    if (!fs::is_directory(folder, why)) {
+      tell(options_.session + ": cannot be written: no such folder");
+      return ExitStatus::kWrongInput;
+    }
     std::string message;
     if (!read_video_facts(options_.video, draft_.facts, message)) {
       tell(message);
       return ExitStatus::kWrongInput;
     }
     draft_.video = options_.video;
-    tell_facts();
+    text_ += facts_text(options_.video, draft_.facts);
     if (const ExitStatus camera = take_camera(); camera != ExitStatus::kDone) {
       return camera;
     }
@@ -112,28 +117,6 @@ class NewRun {
   }
 
  private:
-  void tell_facts() {
-    const VideoFacts& facts = draft_.facts;
-    drivers::print(text_, "%s: %d x %d px", options_.video.c_str(), facts.width_px,
-                   facts.height_px);
-    if (facts.rate_hz > 0.0) {
-      drivers::print(text_, ", %.5g frames a second", facts.rate_hz);
-    }
-    if (facts.scan) {
-      drivers::print(
-          text_, ", %s",
-          std::string(drivers::kScanWords[static_cast<std::size_t>(*facts.scan)]).c_str());
-    }
-    if (facts.lattice) {
-      drivers::print(text_,
-                     "; %d tube-ends in the first frame, of %.0f px, rows and columns %.0f degrees "
-                     "apart\n",
-                     facts.lattice->elements, facts.lattice->diameter_px, facts.lattice->angle_deg);
-    } else {
-      text_ += "; no tube-ends found in the first frame\n";
-    }
-  }
-
   ExitStatus take_camera() {
     core::CameraSettings& camera = draft_.camera;
     const bool given = !options_.camera.empty() || !options_.focal_mm.empty();
@@ -207,7 +190,8 @@ class NewRun {
     draft_.camera.scan = index < 0 ? seen : static_cast<core::Scan>(index);
   }
 
-  /// A file of calibrate camera stays what it is, with what it says of its own quality.
+  /// A file of calibrate camera stays what it is, with what it says of its own quality; of a
+  /// session the camera is copied.
   ExitStatus include_camera(const std::string& file) {
     const auto session = std::make_unique<drivers::SessionFile>();
     drivers::Messages messages;
@@ -218,6 +202,11 @@ class NewRun {
       return ExitStatus::kWrongInput;
     }
     draft_.camera = session->settings.camera;
+    if (session->has_tool || session->has_start || session->settings.tubesheet.bore_mm > 0.0) {
+      // A whole session: its other tables would stand twice.
+      draft_.camera_from = "as in " + file;
+      return check_size(file);
+    }
     std::error_code why;
     const fs::path folder = fs::absolute(options_.session, why).parent_path();
     const fs::path relative =
@@ -264,7 +253,7 @@ class NewRun {
         "--lattice", "how the tubes stand: square or triangular", usual,
         [&](const std::string& text) { return index_of(text, kLattices) >= 0; }, word);
     draft_.triangular = word == "triangular";
-    if (!usual.empty() && !word.empty() && word != usual) {
+    if (!usual.empty() && index_of(word, kLattices) >= 0 && word != usual) {
       tell("new: told " + word + ", but in the first frame rows and columns stand " +
            drivers::rounded_text(lattice->angle_deg, 3) + " degrees apart, as of a " + usual +
            " lattice: look again");

@@ -10,7 +10,9 @@
 #include "board/bench/output/still_reader.h"
 #include "core/detection/lattice_finder.h"
 #include "core/picture/averaged_picture.h"
+#include "drivers/files/decimal.h"
 #include "drivers/files/y4m_reader.h"
+#include "drivers/settings/session_keys.h"
 
 namespace tubesight::board {
 namespace {
@@ -140,6 +142,26 @@ Result<void> read_video_facts(const std::string& file, VideoFacts& facts, std::s
   facts.height_px = picture.height_px;
   facts.lattice = find_lattice(picture);
   return {};
+}
+
+std::string facts_text(const std::string& file, const VideoFacts& facts) {
+  std::string text;
+  drivers::print(text, "%s: %d x %d px", file.c_str(), facts.width_px, facts.height_px);
+  if (facts.rate_hz > 0.0) {
+    drivers::print(text, ", %.5g frames a second", facts.rate_hz);
+  }
+  if (facts.scan) {
+    text += ", " + std::string(drivers::kScanWords[static_cast<std::size_t>(*facts.scan)]);
+  }
+  if (facts.lattice) {
+    drivers::print(text,
+                   "; %d tube-ends in the first frame, of %.0f px, rows and columns %.0f degrees "
+                   "apart\n",
+                   facts.lattice->elements, facts.lattice->diameter_px, facts.lattice->angle_deg);
+  } else {
+    text += "; no tube-ends found in the first frame\n";
+  }
+  return text;
 }
 
 }  // namespace tubesight::board

@@ -49,4 +49,7 @@ struct VideoFacts {
 [[nodiscard]] core::Result<void> read_video_facts(const std::string& file, VideoFacts& facts,
                                                   std::string& message);
 
+/// What a video tells, in one line for a person.
+[[nodiscard]] std::string facts_text(const std::string& file, const VideoFacts& facts);
+
 }  // namespace tubesight::board
