@@ -104,7 +104,8 @@ ExitStatus import_camera(const std::string& file, core::CameraSettings& camera,
                  yaml.width_px, yaml.height_px, residual.rms_px, residual.worst_px);
   camera = calibrated(plain, *values);
   if (!(residual.rms_px <= kMost_px)) {
-    return fail(report + file +
+    static_cast<void>(write_out(report));  // what follows speaks of it
+    return fail(file +
                     ": no camera: that is more than 1 px, expected a lens that k and k2 "
                     "follow; calibrate it with calibrate camera",
                 ExitStatus::kJobFailed);
