@@ -4,16 +4,21 @@
 #include <cstdint>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/argument_words.h"
 #include "board/bench/budget/budget_command.h"
 #include "board/bench/calibrate_arguments.h"
 #include "board/bench/campaign/campaign_command.h"
-#include "board/bench/campaign/campaign_options.h"
+#include "board/bench/campaign_arguments.h"
 #include "board/bench/devices/devices_command.h"
 #include "board/bench/look/look_command.h"
+#include "board/bench/new_arguments.h"
+#include "board/bench/output/text_output.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
 #include "board/bench/replay/replay_command.h"
@@ -21,6 +26,7 @@
 #include "board/bench/simulate/simulate_command.h"
 #include "board/bench/simulate/simulate_options.h"
 #include "board/box/version.h"
+#include "drivers/files/commit_together.h"
 
 namespace tubesight::board {
 namespace {
@@ -188,61 +194,6 @@ CLI::App* add_budget(CLI::App& app, BudgetOptions& options) {
   return budget;
 }
 
-CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
-  CLI::App* const campaign = app.add_subcommand(
-      "campaign", "Random plants, cameras, paths and faults: counts what the box says wrong");
-  constexpr std::int64_t kMost = std::int64_t{1} << 53U;
-  const CLI::Range positive(std::int64_t{1}, kMost);
-  const CLI::Range natural(std::int64_t{0}, kMost);
-  campaign->add_option("--moves", options.moves, "Run until N moves are done, those resumed too")
-      ->option_text("N")
-      ->check(positive);
-  campaign->add_option("--fields", options.fields, "Run until the box has seen N fields")
-      ->option_text("N")
-      ->check(positive);
-  campaign->add_option("--hours", options.hours, "Run for H hours")
-      ->option_text("H")
-      ->check(CLI::Range(1e-6, 1e5));
-  campaign
-      ->add_option("--seed", options.seed,
-                   "Seed of all that is drawn; default 1, or that of --resume")
-      ->option_text("S")
-      ->check(natural);
-  campaign
-      ->add_option("--first-move", options.first_move,
-                   "Number of the first move; default 0, or the first of --resume")
-      ->option_text("M")
-      ->check(natural);
-  campaign->add_option("--jobs", options.jobs, "Moves run at a time; default 1")
-      ->option_text("J")
-      ->check(CLI::Range(1, 1024));
-  campaign
-      ->add_option("--resume", options.resume,
-                   "Progress file (CSV): continued when it is there, kept up to date")
-      ->option_text("FILE");
-  campaign->add_option("--report", options.report, "Write counts and bounds of every stratum (CSV)")
-      ->option_text("FILE");
-  campaign->add_option("--merge", options.merge, "Put progress files together, and report")
-      ->option_text("FILE...");
-  campaign
-      ->add_option("--replay-move", options.one_move,
-                   "Run one move and write it as a scenario for tubesight simulate")
-      ->option_text("SEED:MOVE");
-  campaign
-      ->add_option("--out", options.out,
-                   "Where the scenario goes; with --merge: the merged progress file")
-      ->option_text("FILE");
-  campaign->add_flag("--lamps", options.lamps,
-                     "In place of moves: runs of a box that rules its lamp, and what goes wrong");
-  campaign->add_flag("--sizes", options.sizes,
-                     "Pictures of 320x240 to 1920x1200, in fields and whole, 50 to 120 a second");
-  campaign->add_flag("--reduce", options.reduce,
-                     "With --replay-move: first leave out all that its wrong tube does not need");
-  campaign->add_flag("--without-margin-check", options.without_margin_check,
-                     "Self-proof: the box rounds to the nearest tube, and must be found out");
-  return campaign;
-}
-
 CLI::App* add_devices(CLI::App& app, DevicesOptions& options) {
   CLI::App* const devices = app.add_subcommand(
       "devices",
@@ -277,69 +228,144 @@ CLI::App* add_simulate(CLI::App& app, SimulateOptions& options) {
   return simulate;
 }
 
+ExitStatus refuse(const std::string& text) {
+  std::fprintf(stderr, "tubesight: %s (tubesight help tells more)\n", text.c_str());
+  return ExitStatus::kWrongInput;
+}
+
 /// Help and version, or one line about what is wrong.
 ExitStatus answer(const CLI::App& app, const CLI::ParseError& problem) {
   if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     return app.exit(problem) == 0 ? ExitStatus::kDone : ExitStatus::kWrongInput;
   }
-  std::string text = problem.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::fprintf(stderr, "tubesight: %s (tubesight --help tells the arguments)\n", text.c_str());
-  return ExitStatus::kWrongInput;
+  return refuse(explain_refusal(app, problem));
 }
+
+/// The arguments as CLI11 takes them, the last one first: `help COMMAND` is `COMMAND --help`.
+std::vector<std::string> arguments_of(int argc, const char* const* argv) {
+  std::vector<std::string> arguments;
+  for (int i = 1; i < argc; ++i) {
+    arguments.emplace_back(argv[i]);
+  }
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.insert(arguments.begin() + (arguments.empty() ? 0 : 1), "--help");
+  }
+  std::reverse(arguments.begin(), arguments.end());
+  return arguments;
+}
+
+/// Runs a command whose outputs are put in their places together when it is done, or not at all:
+/// when an argument or a file is wrong, or when one of them cannot be written.
+template <typename Command>
+ExitStatus put_in_place_together(Command command) {
+  drivers::CommitTogether outputs;
+  const ExitStatus status = command();
+  if (status == ExitStatus::kWrongInput) {
+    return status;
+  }
+  if (!outputs.commit()) {
+    if (!outputs.message().empty()) {
+      tell(outputs.message());
+    }
+    return ExitStatus::kJobFailed;
+  }
+  return status;
+}
+
+/// All commands with their options, and which of them was named.
+class Commands {
+ public:
+  explicit Commands(CLI::App& app)
+      : made_(add_new(app, new_options_)),
+        replay_(add_replay(app, replay_options_, scalar_)),
+        pose_(add_pose(app, pose_options_)),
+        look_(add_look(app, look_options_)),
+        calibrate_(add_calibrate(app, calibrate_arguments_)),
+        budget_(add_budget(app, budget_options_)),
+        campaign_(add_campaign(app, campaign_options_)),
+        simulate_(add_simulate(app, simulate_options_)),
+        devices_(add_devices(app, devices_options_)) {}
+
+  ExitStatus run() {
+    if (campaign_->parsed()) {  // its progress is kept while it runs
+      return run_campaign(campaign_options_, program_version());
+    }
+    return put_in_place_together([this] { return run_named(); });
+  }
+
+ private:
+  ExitStatus run_named() {
+    if (made_->parsed()) {
+      return run_new(new_options_);
+    }
+    if (devices_->parsed()) {
+      return run_devices(devices_options_);
+    }
+    if (pose_->parsed()) {
+      return run_pose(pose_options_);
+    }
+    if (calibrate_->parsed()) {
+      return run_calibrate(calibrate_arguments_);
+    }
+    if (budget_->parsed()) {
+      return run_budget(budget_options_);
+    }
+    if (look_->parsed()) {
+      return run_look(look_options_);
+    }
+    if (simulate_->parsed()) {
+      return run_simulate(simulate_options_);
+    }
+    replay_options_.scalar = kScalars.at(scalar_);
+    return replay_->parsed() ? run_replay(replay_options_) : ExitStatus::kWrongInput;
+  }
+
+  NewOptions new_options_;
+  ReplayOptions replay_options_;
+  std::string scalar_ = "fixed";
+  PoseCommandOptions pose_options_;
+  LookOptions look_options_;
+  CalibrateArguments calibrate_arguments_;
+  BudgetOptions budget_options_;
+  CampaignOptions campaign_options_;
+  SimulateOptions simulate_options_;
+  DevicesOptions devices_options_;
+  const CLI::App* made_;
+  const CLI::App* replay_;
+  const CLI::App* pose_;
+  const CLI::App* look_;
+  const CLI::App* calibrate_;
+  const CLI::App* budget_;
+  const CLI::App* campaign_;
+  const CLI::App* simulate_;
+  const CLI::App* devices_;
+};
 
 }  // namespace
 
 ExitStatus run_command_line(int argc, const char* const* argv) {
   CLI::App app("Tubesight, the vision box of a servicing robot for tubesheets", "tubesight");
-  app.set_version_flag("--version", version_text("tubesight"),
+  app.set_version_flag("-V,--version", version_text("tubesight"),
                        "Print version, commit and arithmetic, and exit");
   app.require_subcommand(1);
-  ReplayOptions options;
-  std::string scalar = "fixed";
-  const CLI::App* const replay = add_replay(app, options, scalar);
-  PoseCommandOptions pose_options;
-  const CLI::App* const pose = add_pose(app, pose_options);
-  LookOptions look_options;
-  const CLI::App* const look = add_look(app, look_options);
-  CalibrateArguments calibrate_arguments;
-  const CLI::App* const calibrate = add_calibrate(app, calibrate_arguments);
-  BudgetOptions budget_options;
-  const CLI::App* const budget = add_budget(app, budget_options);
-  CampaignOptions campaign_options;
-  const CLI::App* const campaign = add_campaign(app, campaign_options);
-  SimulateOptions simulate_options;
-  const CLI::App* const simulate = add_simulate(app, simulate_options);
-  DevicesOptions devices_options;
-  const CLI::App* const devices = add_devices(app, devices_options);
+  const auto commands = std::make_unique<Commands>(app);
+  std::vector<std::string> arguments = arguments_of(argc, argv);
+  if (!arguments.empty() && !arguments.back().starts_with('-')) {
+    if (const std::string wrong = why_no_command(app, arguments.back()); !wrong.empty()) {
+      return refuse(wrong);
+    }
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(arguments);
   } catch (const CLI::ParseError& problem) {
     return answer(app, problem);
   }
-  if (devices->parsed()) {
-    return run_devices(devices_options);
+  if (const std::string wrong = find_wrong_arguments(*app.get_subcommands().front());
+      !wrong.empty()) {
+    return refuse(wrong);
   }
-  if (pose->parsed()) {
-    return run_pose(pose_options);
-  }
-  if (calibrate->parsed()) {
-    return run_calibrate(calibrate_arguments);
-  }
-  if (budget->parsed()) {
-    return run_budget(budget_options);
-  }
-  if (look->parsed()) {
-    return run_look(look_options);
-  }
-  if (campaign->parsed()) {
-    return run_campaign(campaign_options, program_version());
-  }
-  if (simulate->parsed()) {
-    return run_simulate(simulate_options);
-  }
-  options.scalar = kScalars.at(scalar);
-  return replay->parsed() ? run_replay(options) : ExitStatus::kWrongInput;
+  return commands->run();
 }
 
 }  // namespace tubesight::board

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "board/bench/command_line.h"
+#include "board/bench/interruption.h"
 
 int main(int argc, char** argv) {
   using tubesight::board::ExitStatus;
@@ -10,6 +11,7 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   // So is a file that grows beyond what the system allows.
   std::signal(SIGXFSZ, SIG_IGN);
+  tubesight::board::remove_unfinished_when_interrupted();
   ExitStatus status = ExitStatus::kJobFailed;
   try {
     status = tubesight::board::run_command_line(argc, argv);

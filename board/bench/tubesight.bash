@@ -18,14 +18,19 @@ _tubesight() {
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
-      -*) _tubesight_words -h --help --version ;;
-      *) _tubesight_words replay pose look calibrate budget simulate campaign devices ;;
+      -*) _tubesight_words -h --help -V --version ;;
+      *) _tubesight_words new replay pose look calibrate budget simulate campaign devices ;;
     esac
     return
   fi
 
   # Flags, and options that take a value.
   case $command in
+    new)
+      options="-h --help"
+      taking="--from --camera --efl-mm --pixel-um --scan --lattice --pitch-mm --bore-mm --weld --tool-mm"
+      taking+=" --tool-deg --at"
+      ;;
     replay)
       options="-h --help --overlay-estimates"
       taking="--fields --centers --overlay --poses --pairs --scalar"
@@ -65,6 +70,11 @@ _tubesight() {
   esac
 
   case $command$previous in
+    new--from) _tubesight_files .y4m .y4m.xz .png .pgm && return ;;
+    new--camera) _tubesight_files .toml .yaml .yml && return ;;
+    new--scan) _tubesight_words even-first odd-first progressive && return ;;
+    new--lattice) _tubesight_words square triangular && return ;;
+    new--weld) _tubesight_words flush fillet && return ;;
     calibrate--lattice) _tubesight_words square staggered && return ;;
     calibrate--dots) _tubesight_words dark bright && return ;;
     calibrate--paper) _tubesight_words A4 A3 A2 letter tabloid && return ;;
@@ -112,7 +122,7 @@ _tubesight() {
         *) _tubesight_files .toml ;;
       esac
       ;;
-    replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
+    new0 | replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz ;;
     pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
     campaign*) _tubesight_files .csv ;; # more of --merge

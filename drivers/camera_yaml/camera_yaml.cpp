@@ -28,6 +28,9 @@ class Reader {
   Reader(YamlTree& tree, Messages& messages) : tree_(tree), messages_(messages) {}
 
   [[nodiscard]] bool read(CameraYaml& camera) {
+    if (yaml_node_t* const chain = tree_.find(tree_.root(), {"cam0"}); chain != nullptr) {
+      return read_kalibr(chain, camera);
+    }
     return model_is_served() && read_side({"image_width", "width"}, camera.width_px) &&
            read_side({"image_height", "height"}, camera.height_px) && read_matrix(camera) &&
            read_distortion(camera) && read_name(camera);
@@ -37,6 +40,70 @@ class Reader {
   bool complain(const yaml_node_t* node, std::string_view key, const std::string& what) {
     messages_.push_back(tree_.place(node, key) + what);
     return false;
+  }
+
+  /// A camera chain of Kalibr, of one camera: pinhole with radial and tangential distortion.
+  bool read_kalibr(yaml_node_t* chain, CameraYaml& camera) {
+    if (yaml_node_t* const other = tree_.find(tree_.root(), {"cam1"}); other != nullptr) {
+      return complain(other, "cam1",
+                      "a second camera, expected one: leave the one that sees the tubesheet, as "
+                      "cam0");
+    }
+    yaml_node_t* const kind = tree_.find(chain, {"camera_model"});
+    if (YamlTree::text_of(kind) != "pinhole") {
+      const bool omni = YamlTree::text_of(kind) == "omni";
+      return complain(
+          kind, "camera_model",
+          quoted(YamlTree::text_of(kind)) + (omni ? ", a fisheye's" : "") + ", expected pinhole");
+    }
+    yaml_node_t* const model = tree_.find(chain, {"distortion_model"});
+    const std::string_view name = YamlTree::text_of(model);
+    if (name != "radtan" && name != "none") {
+      const bool fisheye = name == "equidistant" || name == "fov";
+      return complain(model, "distortion_model",
+                      quoted(name) + (fisheye ? ", a fisheye's" : "") + ", expected radtan");
+    }
+    std::array<double, 2> resolution{};
+    std::array<double, 4> intrinsics{};
+    std::array<double, 4> distortion{};
+    if (!read_exactly(chain, "resolution", resolution) ||
+        !read_exactly(chain, "intrinsics", intrinsics) ||
+        (name == "radtan" && !read_exactly(chain, "distortion_coeffs", distortion))) {
+      return false;
+    }
+    constexpr double kMost = 16384.0;
+    for (const double side : resolution) {
+      if (side != std::floor(side) || side < 1.0 || side > kMost) {
+        return complain(tree_.find(chain, {"resolution"}), "resolution",
+                        "expected width and height, whole pixels from 1 to 16384");
+      }
+    }
+    const auto& [fu, fv, pu, pv] = intrinsics;
+    if (!(fu > 0.0) || !(fv > 0.0) || fu > kLongest_px || fv > kLongest_px) {
+      return complain(tree_.find(chain, {"intrinsics"}), "intrinsics",
+                      "expected fu, fv, pu, pv with fu and fv above 0");
+    }
+    camera.width_px = static_cast<std::int32_t>(resolution[0]);
+    camera.height_px = static_cast<std::int32_t>(resolution[1]);
+    camera.fx_px = fu;
+    camera.fy_px = fv;
+    camera.cx_px = pu;
+    camera.cy_px = pv;
+    for (std::size_t i = 0; i < distortion.size(); ++i) {  // k1, k2, r1, r2 as OpenCV's first four
+      camera.distortion[i] = distortion[i];
+    }
+    camera.name.clear();
+    return true;
+  }
+
+  bool read_exactly(yaml_node_t* mapping, std::string_view key, std::span<double> values) {
+    yaml_node_t* const node = tree_.find(mapping, {key});
+    const std::int32_t count = read_numbers(node, key, values);
+    if (count >= 0 && static_cast<std::size_t>(count) != values.size()) {
+      return complain(
+          node, key, std::to_string(count) + " numbers, expected " + std::to_string(values.size()));
+    }
+    return count >= 0;
   }
 
   /// A fisheye's coefficients look like others, so that its name is all that tells.

@@ -33,6 +33,10 @@ enum class YamlManner : std::uint8_t {
 /// distortion_model plumb_bob, rational_polynomial or none. A fisheye's model is refused by its
 /// name, a skew as well.
 ///
+/// Also a camera chain of Kalibr with one camera, cam0: camera_model pinhole, distortion_model
+/// radtan (whose four numbers are OpenCV's first four) or none, resolution, intrinsics,
+/// distortion_coeffs.
+///
 /// Errors: kInvalidArgument, and `messages` say where and why. At most 1 MiB.
 [[nodiscard]] core::Result<void> read_camera_yaml(std::string_view text, const std::string& name,
                                                   CameraYaml& camera, Messages& messages);

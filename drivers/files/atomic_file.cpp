@@ -8,6 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "drivers/files/commit_together.h"
+#include "drivers/files/unfinished.h"
+
 namespace tubesight::drivers {
 namespace {
 
@@ -16,21 +19,6 @@ using core::Result;
 using core::Unexpected;
 
 constexpr std::size_t kBufferBytes = 65536;
-constexpr mode_t kMode = 0666;  // less the user's umask
-constexpr int kAttempts = 1000;
-
-/// Opens a new file beside `target`; open() honours the umask, which mkstemp() does not.
-int open_beside(const std::string& target, std::string& temporary) {
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    temporary = target + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".part";
-    const int descriptor =
-        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
-    if (descriptor >= 0 || errno != EEXIST) {
-      return descriptor;
-    }
-  }
-  return -1;
-}
 
 std::string resolve_links(const std::string& path) {
   char* const resolved = ::realpath(path.c_str(), nullptr);
@@ -40,11 +28,6 @@ std::string resolve_links(const std::string& path) {
   std::string result = resolved;
   std::free(resolved);
   return result;
-}
-
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
 }  // namespace
@@ -69,7 +52,7 @@ Result<void> AtomicFile::open(const std::string& path) {
     }
   }
   target_ = resolve_links(path);
-  descriptor_ = open_beside(target_, temporary_);
+  descriptor_ = open_unfinished_beside(target_, temporary_);
   if (descriptor_ < 0) {
     temporary_.clear();
     return fail("cannot be written");
@@ -97,7 +80,17 @@ Result<void> AtomicFile::sync() {
   return {};
 }
 
-Result<void> AtomicFile::commit() {
+Result<void> AtomicFile::commit() { return commit(false); }
+
+Result<void> AtomicFile::commit_to_disk() {
+  if (const auto synced = sync(); !synced) {
+    discard();
+    return synced;
+  }
+  return commit(true);
+}
+
+Result<void> AtomicFile::commit(bool to_disk) {
   if (!is_open()) {
     return Unexpected(Error::kNotReady);
   }
@@ -105,43 +98,47 @@ Result<void> AtomicFile::commit() {
     discard();
     return flushed;
   }
+  // The copy keeps the lock until the file has its name: nobody takes it for one left behind.
+  const int copy = ::dup(descriptor_);
   const int closed = ::close(descriptor_);
-  descriptor_ = -1;
+  descriptor_ = copy;
   if (closed != 0) {
     const auto failure = fail("cannot be written");
     discard();
     return failure;
   }
-  if (!temporary_.empty() && ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+  if (temporary_.empty()) {  // written directly
+    discard();
+    return {};
+  }
+  if (CommitTogether* const together = CommitTogether::current(); together != nullptr) {
+    together->add({path_, temporary_, target_, descriptor_, to_disk});
+    temporary_.clear();
+    descriptor_ = -1;
+    return {};
+  }
+  if (!rename_unfinished(temporary_, target_)) {
     const auto failure = fail("cannot be put in its place");
     discard();
     return failure;
   }
   temporary_.clear();
-  return {};
-}
-
-Result<void> AtomicFile::commit_to_disk() {
-  if (const auto synced = sync(); !synced) {
-    discard();
-    return synced;
-  }
-  const bool in_a_folder = !temporary_.empty();
-  TUBESIGHT_TRY(commit());
-  if (in_a_folder && !sync_folder(folder_of(target_))) {
+  discard();
+  if (to_disk && !sync_folder(folder_of(target_))) {
     return fail("is in its place, but a power cut may take it back");
   }
   return {};
 }
 
 void AtomicFile::discard() {
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+    forget_unfinished(temporary_);
+    temporary_.clear();
+  }
   if (descriptor_ >= 0) {
     ::close(descriptor_);
     descriptor_ = -1;
-  }
-  if (!temporary_.empty()) {
-    ::unlink(temporary_.c_str());
-    temporary_.clear();
   }
 }
 
@@ -150,6 +147,7 @@ Result<void> AtomicFile::fail(const char* what) {
     message_ = path_ + ": " + what + ": " + std::strerror(errno);
   }
   failed_ = true;
+  CommitTogether::fail_current();
   return Unexpected(Error::kIo);
 }
 
@@ -171,6 +169,11 @@ Result<void> AtomicFile::flush() {
   }
   buffer_.clear();
   return {};
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
 bool sync_folder(const std::string& folder) {

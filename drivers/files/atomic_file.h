@@ -14,6 +14,10 @@ namespace tubesight::drivers {
 /// The bytes go to a file beside the target whose name ends in `.part`; commit() renames it, and
 /// destruction without commit() removes it, so that the target is the old file, the whole new one,
 /// or absent. What is no regular file (a pipe, a terminal, /dev/null) is written directly.
+///
+/// What an earlier program left behind of the same target, killed in the midst of it, is removed;
+/// an end by remove_unfinished_for_good() leaves nothing. Under a CommitTogether the file gets its
+/// name with those of the others.
 class AtomicFile {
  public:
   AtomicFile() = default;
@@ -58,6 +62,7 @@ class AtomicFile {
   [[nodiscard]] const std::string& message() const { return message_; }
 
  private:
+  core::Result<void> commit(bool to_disk);
   core::Result<void> fail(const char* what);
 
   std::string path_;       ///< as the caller gave it
@@ -68,6 +73,9 @@ class AtomicFile {
   int descriptor_ = -1;
   bool failed_ = false;
 };
+
+/// The folder that a path leads into: "." of a bare name.
+[[nodiscard]] std::string folder_of(const std::string& path);
 
 /// Waits until the names of a folder's files are on the disk: what was put in its place or removed
 /// there is so after a power cut. False when the system refuses.

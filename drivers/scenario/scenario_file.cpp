@@ -8,10 +8,13 @@
 #include <memory>
 #include <numeric>
 #include <string_view>
+#include <utility>
 
 #include "core/base/scalar.h"
+#include "core/camera/camera_setup.h"
 #include "core/rendering/renderer_limits.h"
 #include "core/session/session.h"
+#include "drivers/files/decimal.h"
 #include "drivers/scenario/scenario_clicks.h"
 #include "drivers/scenario/scenario_effects.h"
 #include "drivers/scenario/scenario_events.h"
@@ -124,7 +127,23 @@ void ScenarioReading::read_told() {
   told.edges = {};
   told.verification = {};
   camera_ = drivers::read_table(*document_, "camera", true, [&](TableReader& table) {
+    const std::size_t before = table.problems().size();
     drivers::read_camera(table, told.camera);
+    constexpr std::int32_t kMost = core::rendering::kMaxPictureSide;
+    for (const auto& [key, side_px] : {std::pair{"width_px", told.camera.width_px},
+                                       std::pair{"height_px", told.camera.height_px}}) {
+      if (table.sound(key) && side_px > kMost) {
+        table.complain(key, std::to_string(side_px) + ", expected at most " +
+                                std::to_string(kMost) + " in a scenario, which is drawn");
+      }
+    }
+    if (table.problems().size() == before &&
+        !core::camera::make_camera_model<core::FixedPoint>(told.camera)) {
+      table.complain("focal_length_mm",
+                     number_text(told.camera.focal_length_mm) +
+                         ", expected a picture within 60 degrees of the optical axis, and 32 to "
+                         "16000 px to the focal length");
+    }
   });
   tool_ = drivers::read_table(*document_, "tool", true,
                               [&](TableReader& table) { drivers::read_tool(table, told.tool); });

@@ -53,8 +53,8 @@ std::string describe(const toml::node& node) {
   }
   if (const auto* const number = node.as_floating_point()) {
     // So that it differs from the integer in "expected an integer".
-    const double value = number->get();
-    return number_text(value) + (std::isfinite(value) && value == std::floor(value) ? ".0" : "");
+    std::string text = number_text(number->get());
+    return text + (text.find_first_of(".enif") == std::string::npos ? ".0" : "");
   }
   if (const auto* const truth = node.as_boolean()) {
     return truth->get() ? "true" : "false";

@@ -3,7 +3,7 @@
 
 Usage: documents.py ROOT | documents.py --self-test
 
-Links of README.md, CONTRIBUTING.md and docs/ lead to files, and to headings where they name one. Folders
+Links of README.md, CONTRIBUTING.md and docs/ lead to files of the repository, and to headings where they name one. Folders
 and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
 `drivers/<name>/` for one driver at least. Tests that docs/faults.md names are there: `Subject.Claim`, and
 `Class.step` of the emulated board's. No document holds the marks of a merge that nobody finished.
@@ -36,11 +36,13 @@ def anchors(text):
     return found
 
 
-def link_problem(path, target):
+def link_problem(root, path, target):
     if re.match(r"^[a-z]+:", target):
         return None
     name, _, anchor = target.partition("#")
     file = path.parent / name if name else path
+    if root not in file.resolve().parents:
+        return f"'{target}' leads out of the repository"
     if not file.exists():
         return f"'{target}' leads nowhere"
     if anchor and anchor not in anchors(file.read_text(encoding="utf-8")):
@@ -90,7 +92,7 @@ def check(root):
     for path in documents:
         name = path.relative_to(root).as_posix()
         for number, line in enumerate(lines_of(path), 1):
-            found = [link_problem(path, target) for target in LINK.findall(line)]
+            found = [link_problem(root.resolve(), path, target) for target in LINK.findall(line)]
             found += ["a merge was left unfinished"] if UNMERGED.match(line) else []
             if path.name == "CONTRIBUTING.md":
                 words = [word for code in CODE.findall(line) for word in code.split()]
@@ -111,7 +113,7 @@ def self_test():
         "CONTRIBUTING.md": "`core/x/` `y.cpp` `drivers/<name>/` `drivers/<name>/y.cpp` `build/z` `R`\n"
                            "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
                            "`board/<name>/`\n`core/x/y.cpp/`\n",
-        "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n",
+        "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n[o](../../out.md)\n",
         "docs/faults.md": "`A.IsThere` `core/x` `a.B` `B.test_is`\n`A.IsGone`\n`A.test_is`\n",
         "tests/a_test.cpp": "TEST_F(A,\n       IsThere) {}\n// TEST(A, IsGone)\n",
         "tests/system/board/b_test.py": "class A:\n    def test_was(self):\n        pass\n\n\n"
@@ -127,7 +129,7 @@ def self_test():
     expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
                 "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`",
-                "docs/a.md:2: a merge", "docs/faults.md:2: `A.IsGone`",
+                "docs/a.md:2: a merge", "docs/a.md:4: '../../out.md' leads out of", "docs/faults.md:2: `A.IsGone`",
                 "docs/faults.md:3: `A.test_is`"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))

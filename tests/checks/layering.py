@@ -56,8 +56,8 @@ MAY_INCLUDE = {
     "drivers/simulated": BASE + ["hal", "core/tubesheet", "core/rendering", "core/kinematics"],
 }
 MAY_INCLUDE["drivers/scenario"] = [
-    # Reads what the simulated world plays, and lets a session judge whether it can be tracked.
-    *MAY_INCLUDE["drivers/simulated"], "core/session", "drivers/files", "drivers/settings",
+    # Reads what the simulated world plays, and lets camera and session judge whether it can be tracked.
+    *MAY_INCLUDE["drivers/simulated"], "core/camera", "core/session", "drivers/files", "drivers/settings",
     "drivers/simulated"]
 ANY_DRIVER = BASE + ["hal"]
 # What all boards share. It knows the ports and no adapter, so that any board can bring its own.

@@ -18,6 +18,10 @@ CHOICES = [("replay", "--scalar"), ("pose", "--method"), ("pose", "--edge")]
 FILES = ["a.toml", "b.y4m", "c.y4m.xz", "d.png", "e.pgm", "f.csv", "g.txt", "h.pdf"]
 # What is typed, and what is offered beside the folder.
 OFFERED = [
+    ("new s.toml --from ", "b.y4m c.y4m.xz d.png e.pgm"),
+    ("new s.toml --camera ", "a.toml"),
+    ("new s.toml --lattice ", "square triangular"),
+    ("new s.toml --scan ", "even-first odd-first progressive"),
     ("replay ", "a.toml"),
     ("replay a.toml ", "b.y4m c.y4m.xz"),
     ("replay --overlay-estimates a.toml ", "b.y4m c.y4m.xz"),
@@ -45,14 +49,14 @@ OFFERED = [
     ("campaign --resume ", "f.csv"),
     ("campaign --merge f.csv ", "f.csv"),
 ]
-WITHOUT_FOLDER = {"calibrate template h.pdf --lattice ", "calibrate template h.pdf --dots ",
+WITHOUT_FOLDER = {"new s.toml --lattice ", "new s.toml --scan ", "calibrate template h.pdf --lattice ", "calibrate template h.pdf --dots ",
                   "replay a.toml b.y4m ", "campaign --moves ", "replay --scalar fixed a.toml b"}
 # The same of the other programs; one without commands offers files at once.
 OTHERS = {
     "tubesightd": [("", "a.toml")],
     "tubesightctl": [("--socket ", " ".join(FILES)), ("start --socket x --field ", "")],
 }
-OTHERS_WITHOUT_FOLDER = {"start --socket x --field "}
+OTHERS_WITHOUT_FOLDER = {"new s.toml --lattice ", "new s.toml --scan ", "start --socket x --field "}
 
 
 class Program:

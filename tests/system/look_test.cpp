@@ -107,7 +107,7 @@ TEST(Look, SaysWhatIsWrongWithItsArguments) {
     EXPECT_EQ(run.out, "");
   };
 
-  expect_wrong({}, "PICTURE is required");
+  expect_wrong({}, "PICTURE is missing");
   expect_wrong({"absent.png"}, "absent.png: cannot be read: No such file or directory");
   expect_wrong({kSquareStill, kSquareStill, "--overlay", "o.png"},
                "--overlay: one picture for 2, expected one PICTURE");

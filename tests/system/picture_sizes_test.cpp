@@ -120,7 +120,7 @@ TEST(CameraSizes, OutsideTheRangeAreRefusedWithTheRange) {
   const ProgramRun small = run_tubesight(folder, {"simulate", "small.toml", "--out", "r"});
 
   EXPECT_EQ(wide.status, 2);
-  EXPECT_NE(wide.err.find("expected a picture of at most 2048 pixels a side"), std::string::npos)
+  EXPECT_NE(wide.err.find("expected at most 2048 in a scenario, which is drawn"), std::string::npos)
       << wide.err;
   EXPECT_EQ(small.status, 2);
   EXPECT_NE(small.err.find("camera.width_px: 63, expected an integer from 64 to 4096"),

@@ -22,13 +22,6 @@ using core::calibration::ConversionResidual;
 constexpr double kCell_mm = 0.01;
 constexpr double kMost_px = 1.0;  // what tracking allows
 
-CameraValues values_of(const core::CameraSettings& camera) {
-  CameraValues values = CameraValues::Zero();
-  values.head<6>() << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
-      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-  return values;
-}
-
 /// Cells as large as a pixel, for a file without millimetres.
 core::CameraSettings plain_camera(const drivers::CameraYaml& yaml) {
   core::CameraSettings camera;
@@ -48,6 +41,13 @@ ExitStatus fail(const std::string& message, ExitStatus status) {
 }
 
 }  // namespace
+
+CameraValues values_of(const core::CameraSettings& camera) {
+  CameraValues values = CameraValues::Zero();
+  values.head<6>() << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
+      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
+  return values;
+}
 
 CameraExport export_camera(const core::CameraSettings& camera, const std::string& serial,
                            bool opencv) {
@@ -73,21 +73,17 @@ CameraExport export_camera(const core::CameraSettings& camera, const std::string
   return result;
 }
 
-ExitStatus run_import_camera(const ImportCameraOptions& options) {
-  const std::string clash = find_clash(std::array{NamedPath{"the camera's file", options.file}},
-                                       std::array{NamedPath{"--out", options.out}});
-  if (!clash.empty()) {
-    return fail(clash, ExitStatus::kWrongInput);
-  }
+ExitStatus import_camera(const std::string& file, core::CameraSettings& camera,
+                         std::string& report) {
   std::string text;
   std::string reason;
   drivers::DiskFiles files;
-  if (!files.read(options.file, text, reason)) {
-    return fail(options.file + ": " + reason, ExitStatus::kWrongInput);
+  if (!files.read(file, text, reason)) {
+    return fail(file + ": " + reason, ExitStatus::kWrongInput);
   }
   drivers::CameraYaml yaml;
   drivers::Messages messages;
-  if (!read_camera_yaml(text, options.file, yaml, messages)) {
+  if (!read_camera_yaml(text, file, yaml, messages)) {
     tell(messages);
     return ExitStatus::kWrongInput;
   }
@@ -97,27 +93,43 @@ ExitStatus run_import_camera(const ImportCameraOptions& options) {
       core::calibration::sensor_of(plain),
       {yaml.fx_px, yaml.fy_px, yaml.cx_px, yaml.cy_px, yaml.distortion}, residual);
   if (!values) {
-    return fail(options.file +
+    return fail(file +
                     ": no camera: its distortion folds within the picture, expected a "
                     "pixel's ray to be one",
                 ExitStatus::kJobFailed);
   }
-  std::string report;
   drivers::print(report,
                  "camera imported, %d x %d px: k and k2 follow its distortion to %.4f px RMS over "
                  "the picture, %.4f px at worst\n",
                  yaml.width_px, yaml.height_px, residual.rms_px, residual.worst_px);
-  if (!write_out(report)) {
-    return ExitStatus::kJobFailed;
-  }
+  camera = calibrated(plain, *values);
   if (!(residual.rms_px <= kMost_px)) {
-    return fail(options.file +
+    static_cast<void>(write_out(report));  // what follows speaks of it
+    return fail(file +
                     ": no camera: that is more than 1 px, expected a lens that k and k2 "
                     "follow; calibrate it with calibrate camera",
                 ExitStatus::kJobFailed);
   }
+  return ExitStatus::kDone;
+}
+
+ExitStatus run_import_camera(const ImportCameraOptions& options) {
+  const std::string clash = find_clash(std::array{NamedPath{"the camera's file", options.file}},
+                                       std::array{NamedPath{"--out", options.out}});
+  if (!clash.empty()) {
+    return fail(clash, ExitStatus::kWrongInput);
+  }
+  core::CameraSettings camera;
+  std::string report;
+  const ExitStatus imported = import_camera(options.file, camera, report);
+  if (imported != ExitStatus::kDone) {
+    return imported;
+  }
+  if (!write_out(report)) {
+    return ExitStatus::kJobFailed;
+  }
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
-  drivers::write_camera(toml, calibrated(plain, *values));
+  drivers::write_camera(toml, camera);
   return options.out.empty() || write_settings(options.out, toml.take()) ? ExitStatus::kDone
                                                                          : ExitStatus::kJobFailed;
 }

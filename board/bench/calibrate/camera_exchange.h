@@ -8,6 +8,9 @@
 
 namespace tubesight::board {
 
+/// The parameters that calibrations find, of a camera's settings.
+[[nodiscard]] core::calibration::CameraValues values_of(const core::CameraSettings& camera);
+
 /// A calibrated camera as OpenCV or ROS take it.
 struct CameraExport {
   std::string text;    ///< of the file
@@ -24,7 +27,12 @@ struct ImportCameraOptions {
   std::string out;
 };
 
-/// `tubesight calibrate import`: settings of a camera from a file of OpenCV or ROS.
+/// The camera of a file of OpenCV, ROS or Kalibr, progressive, with cells of 0.01 mm. `report` is
+/// one line of what the conversion costs. Anything but kDone was told on standard error.
+[[nodiscard]] ExitStatus import_camera(const std::string& file, core::CameraSettings& camera,
+                                       std::string& report);
+
+/// `tubesight calibrate import`: settings of a camera from a file of OpenCV, ROS or Kalibr.
 ///
 /// What the conversion costs goes to standard output, `[camera]` to `out`. Its cells count as
 /// 0.01 mm, as such a file has no millimetres: only ratios matter. A conversion that is more than

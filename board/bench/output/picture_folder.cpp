@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -9,7 +10,9 @@
 
 #include <unistd.h>
 
+#include "drivers/files/commit_together.h"
 #include "drivers/files/png_writer.h"
+#include "drivers/files/unfinished.h"
 
 namespace tubesight::board {
 namespace {
@@ -55,6 +58,10 @@ PictureFolder::~PictureFolder() {
   std::error_code ignored;
   if (!collecting_.empty()) {
     fs::remove_all(collecting_, ignored);
+    drivers::forget_unfinished(collecting_);
+  }
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
   }
   if (made_folder_) {
     fs::remove(folder_, ignored);  // only when empty
@@ -69,17 +76,17 @@ Result<void> PictureFolder::open(const drivers::Y4mHeader&, bool) {
     return fail("cannot be made a folder", why);
   }
   made_folder_ = !was_there;
-  const std::string collecting =
-      (fs::path(folder_) / ("pictures." + std::to_string(::getpid()) + ".part")).string();
-  fs::create_directory(collecting, why);
-  if (why) {
-    return fail("cannot be written", why);
+  descriptor_ =
+      drivers::make_unfinished_folder((fs::path(folder_) / "pictures").string(), collecting_);
+  if (descriptor_ < 0) {
+    collecting_.clear();
+    return fail("cannot be written", {errno, std::generic_category()});
   }
-  collecting_ = collecting;
   return {};
 }
 
 Result<void> PictureFolder::add(std::int64_t field, const core::RgbImageView& picture) {
+  const drivers::CommitAlone into_the_folder;
   return drivers::write_png((fs::path(collecting_) / picture_name(field)).string(), picture,
                             message_);
 }
@@ -107,6 +114,7 @@ Result<void> PictureFolder::commit() {
   if (why) {
     return fail("cannot be tidied up", why);
   }
+  drivers::forget_unfinished(collecting_);
   collecting_.clear();
   made_folder_ = false;
   return {};
@@ -114,6 +122,7 @@ Result<void> PictureFolder::commit() {
 
 Result<void> PictureFolder::fail(const char* what, const std::error_code& why) {
   message_ = folder_ + ": " + what + ": " + why.message();
+  drivers::CommitTogether::fail_current();
   return Unexpected(Error::kIo);
 }
 

@@ -33,6 +33,7 @@ class PictureFolder final : public OverlaySink {
   std::string folder_;
   std::string collecting_;  ///< empty when there is nothing to remove
   std::string message_;
+  int descriptor_ = -1;  ///< holds the lock of `collecting_`
   bool made_folder_ = false;
 };
 

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "drivers/files/commit_together.h"
+
 namespace tubesight::board {
 
 void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
@@ -15,6 +17,7 @@ void tell(const std::vector<std::string>& messages) {
 bool write_out(const std::string& text) {
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
     std::perror("standard output: cannot be written");
+    drivers::CommitTogether::fail_current();
     return false;
   }
   return true;

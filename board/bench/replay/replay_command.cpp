@@ -204,10 +204,6 @@ class Replay {
   }
 
   bool commit() {
-    if (overlay_ != nullptr && !overlay_->commit()) {
-      tell(overlay_->message());
-      return false;
-    }
     if (!results_.commit()) {
       tell(results_.message());
       return false;
@@ -219,6 +215,11 @@ class Replay {
     }
     if (!options_.pairs.empty() && (!pairs_file_.write(pairs_.text()) || !pairs_file_.commit())) {
       tell(pairs_file_.message());
+      return false;
+    }
+    // Last, as pictures in a folder cannot wait for the files (drivers::CommitTogether).
+    if (overlay_ != nullptr && !overlay_->commit()) {
+      tell(overlay_->message());
       return false;
     }
     return true;

@@ -29,6 +29,13 @@ const std::string kOpencvFile =
     "   data: [ -2.6637260909660682e-01, -3.8588898922304653e-02,\n"
     "       1.7831947042852964e-03, -2.8122100441115472e-04,\n       2.3839153080878486e-01 ]\n";
 
+// As Kalibr writes the chain of one camera.
+const std::string kKalibrFile =
+    "cam0:\n  cam_overlaps: []\n  camera_model: pinhole\n"
+    "  distortion_coeffs: [-0.2834, 0.0739, 0.00019, 0.000018]\n  distortion_model: radtan\n"
+    "  intrinsics: [458.654, 457.296, 367.215, 248.375]\n  resolution: [752, 480]\n"
+    "  rostopic: /cam0/image_raw\n";
+
 CameraYaml read(const std::string& text) {
   CameraYaml camera;
   Messages messages;
@@ -62,6 +69,41 @@ TEST(CameraYaml, OfFlatListsIsRead) {
       read("width: 10\nheight: 20\nK: [1, 0, 2, 0, 3, 4, 0, 0, 1]\nD: [+1e-1, .2, 3, 4]\n");
   EXPECT_EQ(camera.fy_px, 3.0);
   EXPECT_EQ(camera.distortion, (std::array{0.1, 0.2, 3.0, 4.0, 0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(CameraYaml, OfKalibrIsRead) {
+  const CameraYaml camera = read(kKalibrFile);
+  EXPECT_EQ(camera.width_px, 752);
+  EXPECT_EQ(camera.height_px, 480);
+  EXPECT_EQ(camera.fx_px, 458.654);
+  EXPECT_EQ(camera.fy_px, 457.296);
+  EXPECT_EQ(camera.cx_px, 367.215);
+  EXPECT_EQ(camera.cy_px, 248.375);
+  EXPECT_EQ(camera.distortion,
+            (std::array{-0.2834, 0.0739, 0.00019, 0.000018, 0.0, 0.0, 0.0, 0.0}));
+}
+
+TEST(CameraYaml, RefusesOfKalibrWhatItCannotServe) {
+  const auto expect = [](const std::string& before, const std::string& after,
+                         const std::string& said) {
+    CameraYaml camera;
+    Messages messages;
+    EXPECT_FALSE(read_camera_yaml(support::replaced(kKalibrFile, before, after), "k.yaml", camera,
+                                  messages));
+    EXPECT_EQ(messages, Messages{said});
+  };
+  expect("radtan", "equidistant",
+         "k.yaml:5: distortion_model: 'equidistant', a fisheye's, expected radtan");
+  expect("radtan", "fov", "k.yaml:5: distortion_model: 'fov', a fisheye's, expected radtan");
+  expect("pinhole", "omni", "k.yaml:3: camera_model: 'omni', a fisheye's, expected pinhole");
+  expect("pinhole", "ds", "k.yaml:3: camera_model: 'ds', expected pinhole");
+  expect("[752, 480]", "[752.5, 480]",
+         "k.yaml:7: resolution: expected width and height, whole pixels from 1 to 16384");
+  expect("458.654, ", "", "k.yaml:6: intrinsics: 3 numbers, expected 4");
+  expect("458.654", "-1", "k.yaml:6: intrinsics: expected fu, fv, pu, pv with fu and fv above 0");
+  expect("  rostopic", "cam1:\n  rostopic",
+         "k.yaml:9: cam1: a second camera, expected one: leave the one that sees the tubesheet, as "
+         "cam0");
 }
 
 TEST(CameraYaml, ReadsBackWhatItWroteInBothManners) {
