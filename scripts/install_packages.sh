@@ -16,6 +16,7 @@ bench=(
   libpng-dev            # overlay pictures
   libtomlplusplus-dev   # settings
   libcli11-dev          # the command line
+  ffmpeg                # videos of other kinds, at run time
   libyaml-dev           # cameras of OpenCV and ROS
   libmodbus-dev         # the robot's link
   libgpiod-dev          # a lamp on GPIO lines

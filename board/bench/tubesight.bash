@@ -32,8 +32,9 @@ _tubesight() {
       taking+=" --tool-deg --at"
       ;;
     replay)
-      options="-h --help --overlay-estimates"
-      taking="--fields --centers --overlay --poses --pairs --scalar"
+      options="-h --help --overlay-estimates --ignore-scan-flag --must-track -q --quiet -v --verbose"
+      taking="--fields --centers --overlay --poses --pairs --replies --summary --from --to --every"
+      taking+=" --scalar"
       ;;
     pose)
       options="-h --help --only-start --average --total"
@@ -83,9 +84,10 @@ _tubesight() {
       _tubesight_words rims centers tangent-points tangent-lines ellipse-centers && return
       ;;
     pose--edge) _tubesight_words step mid-level moment && return ;;
-    replay--overlay) _tubesight_files .y4m && return ;;
+    replay--overlay) _tubesight_files .y4m .mp4 .mkv .mov && return ;;
+    replay--summary) _tubesight_files .json && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
-    replay--fields | replay--centers | replay--poses | replay--pairs | pose--csv | pose--covariance | look--csv | \
+    replay--fields | replay--centers | replay--poses | replay--pairs | replay--replies | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge | calibrate--touches | \
       calibrate--residuals)
       _tubesight_files .csv && return
@@ -123,8 +125,10 @@ _tubesight() {
       esac
       ;;
     new0 | replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
-    replay1) _tubesight_files .y4m .y4m.xz ;;
-    pose* | look*) _tubesight_files .png .pgm .y4m .y4m.xz ;;
+    replay1) _tubesight_files .y4m .y4m.xz .mp4 .mkv .mov .avi ;;
+    pose* | look*)
+      _tubesight_files .png .pgm .jpg .jpeg .tif .tiff .bmp .y4m .y4m.xz .mp4 .mkv .mov .avi
+      ;;
     campaign*) _tubesight_files .csv ;; # more of --merge
   esac
 }

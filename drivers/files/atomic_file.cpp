@@ -60,6 +60,18 @@ Result<void> AtomicFile::open(const std::string& path) {
   return {};
 }
 
+Result<void> AtomicFile::open_standard_output() {
+  discard();
+  path_ = "standard output";
+  buffer_.clear();
+  buffer_.reserve(kBufferBytes);
+  message_.clear();
+  failed_ = false;
+  temporary_.clear();
+  descriptor_ = ::fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0);
+  return descriptor_ < 0 ? fail("cannot be written") : Result<void>();
+}
+
 Result<void> AtomicFile::write(std::string_view text) {
   return write(std::as_bytes(std::span(text.data(), text.size())));
 }

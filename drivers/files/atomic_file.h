@@ -28,6 +28,9 @@ class AtomicFile {
   /// Begins to write `path`; what an earlier open() began is discarded. Errors: kIo.
   [[nodiscard]] core::Result<void> open(const std::string& path);
 
+  /// Begins to write to standard output, of which nothing can be taken back. Errors: kIo.
+  [[nodiscard]] core::Result<void> open_standard_output();
+
   /// Appends bytes; they are collected and written in large pieces. Errors: kIo (the disk is full,
   /// say), kNotReady not open. After an error the file can only be discarded.
   [[nodiscard]] core::Result<void> write(std::string_view text);
@@ -57,6 +60,10 @@ class AtomicFile {
   void discard();
 
   [[nodiscard]] bool is_open() const { return descriptor_ >= 0; }
+
+  /// The file that stands in for the target until commit(), for programs that write it; empty when
+  /// it is written directly, or not open.
+  [[nodiscard]] const std::string& temporary() const { return temporary_; }
 
   /// The last failure in one line, with the target's name.
   [[nodiscard]] const std::string& message() const { return message_; }

@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <lzma.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace tubesight::drivers {
@@ -43,6 +44,14 @@ class FileByteSource final : public ByteSource {
     return static_cast<std::size_t>(count);
   }
   const std::string& message() const override { return message_; }
+  double share_read() const override {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size == 0) {
+      return -1.0;
+    }
+    return static_cast<double>(::lseek(descriptor_, 0, SEEK_CUR)) /
+           static_cast<double>(status.st_size);
+  }
 
  private:
   int descriptor_;
@@ -65,6 +74,7 @@ class PrefixedByteSource final : public ByteSource {
     return count;
   }
   const std::string& message() const override { return rest_->message(); }
+  double share_read() const override { return rest_->share_read(); }
 
  private:
   std::vector<std::byte> prefix_;
@@ -110,6 +120,7 @@ class XzByteSource final : public ByteSource {
     return count;
   }
   const std::string& message() const override { return message_; }
+  double share_read() const override { return compressed_->share_read(); }
 
  private:
   Result<void> refill() {

@@ -19,8 +19,12 @@ class ByteSource {
   ///
   /// Errors, after which no further read succeeds: kIo the operating system refused or compressed
   /// data is corrupt, kDataLoss compressed data ends early (what was read before is sound as far as
-  /// can be known). message() then says why.
+  /// can be known), kDisconnected the program that makes the bytes gave up (likewise). message()
+  /// then says why.
   [[nodiscard]] virtual core::Result<std::size_t> read(std::span<std::byte> into) = 0;
+
+  /// The share of all bytes that was read, 0..1; below 0 where that is not known.
+  [[nodiscard]] virtual double share_read() const { return -1.0; }
 
   /// Why the last read failed, without the file's name; empty before.
   [[nodiscard]] virtual const std::string& message() const = 0;

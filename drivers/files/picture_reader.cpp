@@ -4,6 +4,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstring>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -54,7 +55,6 @@ void png_take_bytes(png_structp png, png_bytep into, std::size_t count) {
 struct PngShape {
   png_uint_32 width_px = 0;
   png_uint_32 height_px = 0;
-  int bit_depth = 0;
   int channels = 0;
 };
 
@@ -68,7 +68,7 @@ bool read_png_shape(png_structp png, png_infop info, PngInput& input, PngShape& 
   png_read_info(png, info);
   shape.width_px = png_get_image_width(png, info);
   shape.height_px = png_get_image_height(png, info);
-  shape.bit_depth = png_get_bit_depth(png, info);
+  png_set_scale_16(png);  // 16 bits to the nearest of 8
   png_set_expand(png);
   png_set_strip_alpha(png);
   png_set_interlace_handling(png);
@@ -104,9 +104,6 @@ Result<void> decode_png(png_structp png, png_infop info, PngInput& input, GreyPi
   if (!read_png_shape(png, info, input, shape)) {
     return fail(Error::kInvalidArgument, message,
                 std::string("damaged PNG: ") + input.error.data());
-  }
-  if (shape.bit_depth > 8) {
-    return fail(Error::kUnsupported, message, "PNG of 16 bits: expected 8 bits");
   }
   if (shape.width_px > kLargestSide_px || shape.height_px > kLargestSide_px) {
     return fail(Error::kUnsupported, message, "expected at most 8192 pixels a side");
@@ -148,6 +145,17 @@ Result<void> read_png(std::span<const std::byte> bytes, GreyPicture& picture,
   return outcome;
 }
 
+constexpr std::size_t kPngSignature = 8;
+
+bool is_png(std::span<const std::byte> bytes) {
+  return bytes.size() >= kPngSignature &&
+         png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kPngSignature) == 0;
+}
+
+bool is_pgm(std::span<const std::byte> bytes) {
+  return bytes.size() >= 3 && bytes[0] == std::byte{'P'} && bytes[1] == std::byte{'5'};
+}
+
 }  // namespace
 
 Result<void> read_grey_picture(const std::string& path, GreyPicture& picture,
@@ -166,14 +174,24 @@ Result<void> read_grey_picture(const std::string& path, GreyPicture& picture,
   return outcome;
 }
 
+bool is_grey_picture(const std::string& path) {
+  std::unique_ptr<ByteSource> source;
+  std::string ignored;
+  std::array<std::byte, kPngSignature> first{};
+  if (!open_file(path, source, ignored)) {
+    return false;
+  }
+  const auto count = source->read(first);
+  const auto bytes = std::span<const std::byte>(first).first(count.value_or(0));
+  return is_png(bytes) || is_pgm(bytes);
+}
+
 Result<void> read_grey_picture(std::span<const std::byte> bytes, GreyPicture& picture,
                                std::string& message) {
-  constexpr std::size_t kPngSignature = 8;
-  if (bytes.size() >= kPngSignature &&
-      png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, kPngSignature) == 0) {
+  if (is_png(bytes)) {
     return read_png(bytes, picture, message);
   }
-  if (bytes.size() >= 3 && bytes[0] == std::byte{'P'} && bytes[1] == std::byte{'5'}) {
+  if (is_pgm(bytes)) {
     return read_pgm({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, picture, message);
   }
   return fail(Error::kInvalidArgument, message,

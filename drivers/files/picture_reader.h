@@ -22,15 +22,18 @@ struct GreyPicture {
   }
 };
 
-/// Reads a still: PNG (8 bits or fewer; grey, colour or palette, a colour one by its BT.601 luma)
-/// or binary PGM with 255 as its largest value. Grey values are taken as they are stored, whatever
-/// gamma the file names, as measurements need them.
+/// Reads a still: PNG (grey, colour or palette, a colour one by its BT.601 luma; 16 bits are
+/// rounded to 8) or binary PGM with 255 as its largest value. Grey values are taken as they are
+/// stored, whatever gamma the file names, as measurements need them.
 ///
 /// Errors: kIo the file cannot be read, kInvalidArgument neither PNG nor PGM or damaged,
 /// kUnsupported more than 8 bits or more than 8192 pixels a side; `message` is one line with the
 /// path.
 [[nodiscard]] core::Result<void> read_grey_picture(const std::string& path, GreyPicture& picture,
                                                    std::string& message);
+
+/// Whether a file begins as a PNG or a binary PGM does; false also when it cannot be read.
+[[nodiscard]] bool is_grey_picture(const std::string& path);
 
 /// The same from memory; the message comes without a name.
 [[nodiscard]] core::Result<void> read_grey_picture(std::span<const std::byte> bytes,

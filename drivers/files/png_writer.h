@@ -10,7 +10,8 @@ namespace tubesight::drivers {
 /// Writes a picture as PNG that appears under its name only when whole; an existing one is
 /// replaced.
 ///
-/// Quick rather than small compression. Errors: kIo, and `message` is one line with the path.
+/// Quick rather than small compression; up to 256 colours as a palette. Errors: kIo, and `message`
+/// is one line with the path.
 [[nodiscard]] core::Result<void> write_png(const std::string& path, const core::ImageView& grey,
                                            std::string& message);
 [[nodiscard]] core::Result<void> write_png(const std::string& path, const core::RgbImageView& rgb,

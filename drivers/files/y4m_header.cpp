@@ -98,18 +98,35 @@ constexpr std::array kColourSpaces = {
     ColourSpace{"C444alpha", [](std::int64_t w, std::int64_t h) { return 3 * w * h; }},
 };
 
+/// Takes the bits off "Cmono10" or "C420p10", which are 8 where none are told.
+std::int32_t take_depth(std::string_view& parameter) {
+  constexpr std::int32_t kFewest = 9;
+  constexpr std::int32_t kMost = 16;
+  for (const std::string_view before : {"Cmono", "C420p", "C422p", "C444p"}) {
+    std::int32_t depth = 0;
+    if (parameter.starts_with(before) && parse_whole(parameter.substr(before.size()), depth) &&
+        depth >= kFewest && depth <= kMost) {
+      parameter = parameter.substr(0, before.ends_with('p') ? before.size() - 1 : before.size());
+      return depth;
+    }
+  }
+  return 8;
+}
+
 Result<void> set_chroma(std::string_view parameter, Y4mHeader& header, std::string& message) {
-  const std::string_view wanted = parameter.empty() ? "C420" : parameter;
+  std::string_view wanted = parameter.empty() ? "C420" : parameter;
+  header.depth_bits = take_depth(wanted);
   for (const ColourSpace& space : kColourSpaces) {
     if (space.parameter == wanted) {
-      header.chroma_bytes = space.chroma_bytes(header.width_px, header.height_px);
+      header.chroma_bytes =
+          space.chroma_bytes(header.width_px, header.height_px) * (header.depth_bits > 8 ? 2 : 1);
       return {};
     }
   }
   return fail(Error::kUnsupported, message,
               "colour format " + in_quotes(parameter) +
-                  " is not supported: expected 8 bits as Cmono, C420jpeg, C420mpeg2, C420paldv, "
-                  "C411, C422 or C444");
+                  " is not supported: expected Cmono, C420jpeg, C420mpeg2, C420paldv, C411, C422 "
+                  "or C444, or 9 to 16 bits as in Cmono10, C420p10, C422p10 or C444p10");
 }
 
 }  // namespace
@@ -154,6 +171,9 @@ Result<Y4mHeader> parse_y4m_header(std::string_view line, std::string& message) 
 }
 
 std::string_view y4m_colour_of(const Y4mHeader& header, std::int64_t chroma_bytes) {
+  if (header.depth_bits > 8) {
+    return {};
+  }
   for (const ColourSpace& space : kColourSpaces) {
     if (space.chroma_bytes(header.width_px, header.height_px) == chroma_bytes) {
       return space.parameter;

@@ -102,7 +102,7 @@ Result<void> Y4mReader::read_frame(std::span<std::uint8_t> luma) {
   }
   search_ = {};
   alike_ = 0;
-  TUBESIGHT_TRY(read_bytes(header_.luma_bytes(), luma.data()));
+  TUBESIGHT_TRY(read_luma(luma));
   TUBESIGHT_TRY(read_bytes(header_.chroma_bytes, nullptr));
   ++frames_read_;
   const auto sound = judge_what_follows();
@@ -143,7 +143,7 @@ Result<void> Y4mReader::judge_what_follows() {
     ++frames_read_;
     return failed;
   }
-  const std::int64_t count = search_.bytes() - header_.luma_bytes() - header_.chroma_bytes;
+  const std::int64_t count = search_.bytes() - header_.stored_luma_bytes() - header_.chroma_bytes;
   static_cast<void>(fail_cut_short(", the " + count_words(count, "byte", "bytes") + " behind " +
                                    (frames_read_ == 1 ? "it" : "them") +
                                    (count == 1 ? " is" : " are") + " no frame"));
@@ -192,7 +192,7 @@ Result<void> Y4mReader::fail_corrupt() {
 /// Tells that the next FRAME line stands elsewhere than the header says: so many bytes behind the
 /// line of the frame read last.
 Result<void> Y4mReader::fail_misplaced(std::int64_t frame_bytes) {
-  const std::int64_t chroma_bytes = frame_bytes - header_.luma_bytes();
+  const std::int64_t chroma_bytes = frame_bytes - header_.stored_luma_bytes();
   const std::string_view colour = y4m_colour_of(header_, chroma_bytes);
   // In later frames the place fits by chance: the frames before had the length that C says.
   if (frames_read_ > 1 || colour.empty() || chroma_bytes == header_.chroma_bytes) {
@@ -209,6 +209,11 @@ Result<void> Y4mReader::fail_misplaced(std::int64_t frame_bytes) {
 Result<void> Y4mReader::fail_read(Error error) {
   if (error == Error::kDataLoss) {
     return fail_cut_short();
+  }
+  if (error == Error::kDisconnected) {
+    const std::string why = ": " + source_->message();
+    return frames_read_ == 0 ? fail(Error::kDataLoss, "cut short within its first frame" + why)
+                             : fail_cut_short(why);
   }
   return fail(error, "cannot be read after " + std::to_string(frames_read_) +
                          " frames: " + source_->message());
@@ -274,6 +279,22 @@ Result<void> Y4mReader::read_bytes(std::int64_t count, std::uint8_t* into) {
     }
     buffer_begin_ += static_cast<std::size_t>(part);
     count -= part;
+  }
+  return {};
+}
+
+/// Reads the luma plane. What is above a sample's bits is damage, or a writer's mistake: it is as
+/// bright as can be.
+Result<void> Y4mReader::read_luma(std::span<std::uint8_t> luma) {
+  if (header_.depth_bits == 8) {
+    return read_bytes(header_.luma_bytes(), luma.data());
+  }
+  deep_.resize(static_cast<std::size_t>(header_.stored_luma_bytes()));
+  TUBESIGHT_TRY(read_bytes(header_.stored_luma_bytes(), deep_.data()));
+  const std::int32_t below = header_.depth_bits - 8;
+  for (std::size_t i = 0; i < deep_.size() / 2; ++i) {
+    const std::int32_t sample = deep_[2 * i] + 256 * deep_[2 * i + 1];
+    luma[i] = static_cast<std::uint8_t>(std::min(sample >> below, 255));
   }
   return {};
 }

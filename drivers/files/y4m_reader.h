@@ -32,10 +32,14 @@ class Y4mReader {
   /// The header of the opened recording.
   [[nodiscard]] const Y4mHeader& header() const { return header_; }
 
+  /// As ByteSource::share_read(), of the opened recording.
+  [[nodiscard]] double share_read() const { return source_ ? source_->share_read() : -1.0; }
+
   /// Frames read completely so far.
   [[nodiscard]] std::int64_t frames_read() const { return frames_read_; }
 
-  /// Reads the next frame's luma, line by line without padding, into header().luma_bytes() bytes.
+  /// Reads the next frame's luma, line by line without padding, into header().luma_bytes() bytes;
+  /// of samples with more than 8 bits the upper 8.
   ///
   /// Errors: kEndOfData no more frames, kDataLoss the recording is cut short, or bytes follow its
   /// last complete frame among which no further one begins (the frames before are sound), kIo
@@ -66,6 +70,7 @@ class Y4mReader {
   core::Result<bool> fill();
   core::Result<void> read_line(std::string_view& line, Ending& ending);
   core::Result<void> read_bytes(std::int64_t count, std::uint8_t* into);
+  core::Result<void> read_luma(std::span<std::uint8_t> luma);
   void note_end(std::span<const std::byte> part);
   core::Result<void> judge_what_follows();
   core::Result<void> search_rest();
@@ -80,7 +85,8 @@ class Y4mReader {
   std::size_t buffer_begin_ = 0;
   std::size_t buffer_end_ = 0;
   std::vector<char> line_;
-  FrameLineSearch search_;  ///< for FRAME lines within the frame read last
+  std::vector<std::uint8_t> deep_;  ///< a luma plane of more than 8 bits
+  FrameLineSearch search_;          ///< for FRAME lines within the frame read last
   std::int64_t alike_ = 0;  ///< bytes of one value at that frame's end; counted up to a line
   std::byte last_byte_{0};  ///< that value
   core::Error failure_ = core::Error::kNotReady;

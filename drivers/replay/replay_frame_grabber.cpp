@@ -59,7 +59,19 @@ ReplayFrameGrabber::ReplayFrameGrabber(const core::CameraSettings& camera,
       recording_(std::move(name)),
       given_source_(std::move(source)),
       given_meta_(std::move(meta_text)),
-      from_memory_(true) {}
+      from_memory_(true),
+      source_given_(true) {}
+
+void ReplayFrameGrabber::read_from(std::unique_ptr<ByteSource> source, bool companions) {
+  given_source_ = std::move(source);
+  source_given_ = true;
+  from_memory_ = !companions;
+}
+
+void ReplayFrameGrabber::read_from(std::unique_ptr<StampedSource> source) {
+  stamps_ = source.get();
+  read_from(std::unique_ptr<ByteSource>(std::move(source)), true);
+}
 
 Result<void> ReplayFrameGrabber::start() {
   if (started_) {
@@ -71,13 +83,18 @@ Result<void> ReplayFrameGrabber::start() {
   later_field_ = false;
   field_number_ = -1;
   field_time_ = core::FieldTime(0);
-  sequence_ = 0;
+  scan_disagrees_ = false;
   next_row_ = 0;
   TUBESIGHT_TRY(open());
   TUBESIGHT_TRY(check_header());
   TUBESIGHT_TRY(check_rate_or_meta());
   pixels_.resize(static_cast<std::size_t>(reader_.header().luma_bytes()));
-  if (const auto first = reader_.read_frame(pixels_); !first) {
+  if (stamps_ != nullptr && reader_.header().rate_numerator > 0) {
+    stamped_time_.begin(reader_.header().rate_numerator, reader_.header().rate_denominator);
+  } else {
+    stamps_ = nullptr;
+  }
+  if (const auto first = read_frame(); !first) {
     return first.error() == Error::kEndOfData
                ? fail(Error::kInvalidArgument,
                       recording_ + ": holds no frame, expected at least one")
@@ -96,10 +113,10 @@ void ReplayFrameGrabber::stop() {
 
 Result<void> ReplayFrameGrabber::open() {
   std::string meta_text;
+  if (source_given_ && given_source_ == nullptr) {
+    return fail(Error::kIo, recording_ + ": can be read only once");
+  }
   if (from_memory_) {
-    if (given_source_ == nullptr) {
-      return fail(Error::kIo, recording_ + ": can be read only once");
-    }
     meta_name_ = recording_ + ".meta.csv";
     meta_text = given_meta_;
     has_meta_ = !meta_text.empty();
@@ -112,7 +129,7 @@ Result<void> ReplayFrameGrabber::open() {
     has_meta_ = *present;
   }
   const auto opened =
-      from_memory_ ? reader_.open(std::move(given_source_), recording_) : reader_.open(recording_);
+      source_given_ ? reader_.open(std::move(given_source_), recording_) : reader_.open(recording_);
   if (!opened) {
     return fail(opened.error(), reader_.message());
   }
@@ -137,7 +154,8 @@ Result<void> ReplayFrameGrabber::check_header() {
                     " pixels, expected " + size_words(camera_.width_px, camera_.height_px) +
                     " as [camera] of the settings says");
   }
-  if (!agree(header.interlacing, camera_.scan)) {
+  if (!ignores_scan_flag_ && !agree(header.interlacing, camera_.scan)) {
+    scan_disagrees_ = true;
     return fail(Error::kInvalidArgument, recording_ + ": header says " +
                                              header_words(header.interlacing) +
                                              ", expected scan = \"" + scan_word(camera_.scan) +
@@ -168,8 +186,16 @@ Result<void> ReplayFrameGrabber::fail(Error error, std::string message) {
   return Unexpected(error);
 }
 
+Result<void> ReplayFrameGrabber::read_frame() {
+  const auto read = reader_.read_frame(pixels_);
+  if (read && stamps_ != nullptr) {
+    stamped_time_.place(stamps_->next_stamp());
+  }
+  return read;
+}
+
 Result<void> ReplayFrameGrabber::next_frame() {
-  const auto outcome = reader_.read_frame(pixels_);
+  const auto outcome = read_frame();
   if (outcome) {
     frame_ready_ = true;
     return {};
@@ -184,18 +210,25 @@ Result<void> ReplayFrameGrabber::next_frame() {
 }
 
 Result<void> ReplayFrameGrabber::check_meta_used_up() {
-  if (!has_meta_ || meta_.rows().empty() || meta_.rows().back().field <= field_number_) {
+  // Fields that were passed over count.
+  const std::int64_t last =
+      by_rows_ ? field_number_ : 2 * (reader_.frames_read() - 1) + (interlaced() ? 1 : 0);
+  if (!has_meta_ || meta_.rows().empty() || meta_.rows().back().field <= last) {
     return {};
   }
   return fail(Error::kInvalidArgument, meta_name_ + ":" + std::to_string(meta_.rows().back().line) +
                                            ": field: " + std::to_string(meta_.rows().back().field) +
-                                           ", expected at most " + std::to_string(field_number_) +
+                                           ", expected at most " + std::to_string(last) +
                                            ", the last field of " + recording_);
 }
 
 Result<void> ReplayFrameGrabber::describe(std::int64_t number, core::Field& field) {
   field.number = number;
-  field.sequence = sequence_;
+  field.sequence = interlaced() ? number : number / 2;  // the fields, one after the other
+  if (!has_meta_ && stamps_ != nullptr) {
+    field.mid_exposure = stamped_time_.time(number % 2 == 1);
+    return {};
+  }
   if (!has_meta_) {
     const Y4mHeader& header = reader_.header();
     field.mid_exposure = nominal_field_time(number, header.rate_numerator, header.rate_denominator);
@@ -252,34 +285,57 @@ Result<hal::FieldLease> ReplayFrameGrabber::grab_for(std::chrono::milliseconds) 
   if (failed_) {
     return Unexpected(failure_);
   }
+  auto next = next_field();
+  while (next && passed_over(*next)) {
+    next = next_field();
+  }
+  if (!next) {
+    return Unexpected(next.error());
+  }
+  if (next->mid_exposure > choice_.to) {
+    failed_ = true;
+    failure_ = Error::kEndOfData;
+    return Unexpected(failure_);
+  }
+  field_number_ = next->number;
+  field_time_ = next->mid_exposure;
+  lent_ = true;
+  return hal::FieldLease(*this, 0, *next);
+}
+
+bool ReplayFrameGrabber::passed_over(const core::Field& field) const {
+  const bool between = field.number / 2 % choice_.every != 0 ||  // a frame, or
+                       (choice_.every > 1 && field.number % 2 == 1);
+  return between || field.mid_exposure < choice_.from;
+}
+
+Result<core::Field> ReplayFrameGrabber::next_field() {
   const auto next = by_rows_ ? next_row_number() : next_number();
   if (!next) {
     return Unexpected(next.error());
   }
-  const std::int64_t number = *next;
   core::Field field;
   field.parity = core::parity_of(camera_.scan, later_field_);
   field.pixels = core::field_of(frame(), field.parity);
-  TUBESIGHT_TRY(describe(number, field));
+  TUBESIGHT_TRY(describe(*next, field));
   if (field.status == core::FieldStatus::kMissing) {
     field.pixels = {};  // the picture in the file is a filler
   }
-  field_number_ = number;
-  field_time_ = field.mid_exposure;
-  ++sequence_;
   if (!by_rows_) {
     frame_ready_ = interlaced() && !later_field_;
     later_field_ = frame_ready_;
   }
-  lent_ = true;
-  return hal::FieldLease(*this, 0, field);
+  return field;
 }
 
 core::FieldTime ReplayFrameGrabber::shortest_span() const {
   core::FieldTime shortest{0};
+  const std::int64_t apart =
+      choice_.every == 1 ? 1 : choice_.every * (interlaced() ? 2 : 1);  // fields
   if (!has_meta_) {
     const Y4mHeader& header = reader_.header();
-    return nominal_field_time(interlaced() ? 1 : 2, header.rate_numerator, header.rate_denominator);
+    return apart *
+           nominal_field_time(interlaced() ? 1 : 2, header.rate_numerator, header.rate_denominator);
   }
   const auto& rows = meta_.rows();
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -288,7 +344,7 @@ core::FieldTime ReplayFrameGrabber::shortest_span() const {
       shortest = span;
     }
   }
-  return shortest;
+  return apart * shortest;
 }
 
 void ReplayFrameGrabber::give_back(std::int32_t buffer) {

@@ -8,11 +8,26 @@
 #include "core/base/settings.h"
 #include "drivers/files/byte_source.h"
 #include "drivers/files/messages.h"
+#include "drivers/files/stamped_source.h"
 #include "drivers/files/y4m_reader.h"
 #include "drivers/replay/replay_meta.h"
+#include "drivers/replay/stamped_time.h"
 #include "hal/frame_grabber.h"
 
 namespace tubesight::drivers {
+
+/// Which frames of a recording are delivered. What is left out is missing in sequence and time.
+struct FrameChoice {
+  core::FieldTime from = core::FieldTime::min();  ///< mid exposure of the first field, at least
+  core::FieldTime to = core::FieldTime::max();    ///< of the last one, at most
+  /// Every n-th frame, counted from the recording's first; above 1 the earlier field alone of an
+  /// interlaced one, so that fields come at even times.
+  std::int64_t every = 1;
+
+  [[nodiscard]] bool all() const {
+    return from == core::FieldTime::min() && to == core::FieldTime::max() && every == 1;
+  }
+};
 
 /// Delivers the fields of a recording, as fast as they are asked for.
 ///
@@ -39,6 +54,23 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   /// with half that number; the recording has the frames that rows name. There must be a meta file.
   /// Call before start().
   void follow_rows() { by_rows_ = true; }
+
+  /// Takes the pictures from `source` in place of the file, whose name still stands in messages;
+  /// companions are read beside it when `companions`. start() then works once. Call before start().
+  void read_from(std::unique_ptr<ByteSource> source, bool companions);
+  /// The same from a source that tells the times of frames, which then count where there is no meta
+  /// file.
+  void read_from(std::unique_ptr<StampedSource> source);
+
+  /// Takes the order of lines from the settings alone, whatever the recording's header says of it.
+  /// Call before start().
+  void ignore_scan_flag() { ignores_scan_flag_ = true; }
+  /// Whether start() failed because header and settings disagree about the order of lines.
+  [[nodiscard]] bool scan_disagrees() const { return scan_disagrees_; }
+
+  /// Delivers these frames alone; not together with follow_rows(). Call before start().
+  void choose(const FrameChoice& choice) { choice_ = choice; }
+  [[nodiscard]] const FrameChoice& choice() const { return choice_; }
 
   /// Opens recording and meta file and reads the first frame. Beside the errors of the interface:
   /// kInvalidArgument the file is no recording, disagrees with `camera`, has no frame or no rate,
@@ -70,9 +102,15 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   /// Whether fields are those of interlaced frames; valid once started.
   [[nodiscard]] bool interlaced() const { return camera_.scan != core::Scan::kProgressive; }
 
-  /// The shortest time between two fields, by the meta file or the header; zero where neither
-  /// tells. Valid once started.
+  /// The shortest time between two fields that are delivered, by the meta file or the header; zero
+  /// where neither tells. Valid once started.
   [[nodiscard]] core::FieldTime shortest_span() const;
+
+  /// Whether a meta file stands beside the recording; valid once started.
+  [[nodiscard]] bool has_meta() const { return has_meta_; }
+
+  /// The share of the recording that was read, 0..1; below 0 where that is not known.
+  [[nodiscard]] double share_read() const { return reader_.share_read(); }
 
   /// Complete frames read so far.
   [[nodiscard]] std::int64_t frames_read() const { return reader_.frames_read(); }
@@ -90,12 +128,21 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   core::Result<void> describe(std::int64_t number, core::Field& field);
   core::Result<std::int64_t> next_number();
   core::Result<std::int64_t> next_row_number();
+  core::Result<void> read_frame();
+  core::Result<core::Field> next_field();
+  [[nodiscard]] bool passed_over(const core::Field& field) const;
 
   core::CameraSettings camera_;
   std::string recording_;
   std::unique_ptr<ByteSource> given_source_;
   std::string given_meta_;
-  bool from_memory_ = false;
+  bool from_memory_ = false;  ///< the meta file is, or there is none
+  bool source_given_ = false;
+  StampedSource* stamps_ = nullptr;  ///< where the reader's bytes come from; null: no stamps there
+  StampedTime stamped_time_;
+  FrameChoice choice_;
+  bool ignores_scan_flag_ = false;
+  bool scan_disagrees_ = false;
 
   Y4mReader reader_;
   ReplayMeta meta_;
@@ -105,7 +152,6 @@ class ReplayFrameGrabber final : public hal::FrameGrabber {
   Messages messages_;
   std::int64_t field_number_ = -1;
   core::FieldTime field_time_{0};
-  std::int64_t sequence_ = 0;
   bool by_rows_ = false;
   std::size_t next_row_ = 0;    ///< of the meta file, when it is followed
   std::int64_t row_frame_ = 0;  ///< frame in pixels_, by the rows' numbers

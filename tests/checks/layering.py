@@ -50,6 +50,7 @@ MAY_INCLUDE = {
     "drivers/v4l2": BASE + ["hal", "drivers/camera"],
     "drivers/camera_yaml": BASE + ["drivers/files"],
     "drivers/settings": BASE + ["hal", "core/tubesheet", "drivers/files"],
+    "drivers/ffmpeg": BASE + ["drivers/files"],
     "drivers/recording": BASE + ["hal", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
     "drivers/modbus": BASE + ["hal"],

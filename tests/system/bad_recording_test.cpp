@@ -137,7 +137,8 @@ TEST(Replay, RefusesHeaderAndSettingsAtOdds) {
 
   expect_refused(folder, "r.y4m",
                  "r.y4m: header says Ib (odd lines first), expected scan = \"even-first\" as "
-                 "[camera] of the settings says");
+                 "[camera] of the settings says; where the recording's flag is what is wrong: "
+                 "--ignore-scan-flag");
 }
 
 TEST(Replay, TakesTheLumaOfAColourRecording) {

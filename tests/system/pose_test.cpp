@@ -256,7 +256,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"FramesOfAPicture",
                 {"STILL", "--frames", "1", "--start", kThree},
                 2,
-                "--frames: no recording is given, expected a file that ends in .y4m or .y4m.xz"},
+                "--frames: no recording is given, expected a file that ends in .y4m, .y4m.xz, .mp4 "
+                "or as "
+                "another video"},
         Refusal{"NoRecording", {"none.y4m", "--start", kThree}, 2, "none.y4m: cannot be read: "},
         Refusal{"StartNoNumbers",
                 {"STILL", "--start", "7,41,304;7,42,373,192"},

@@ -18,13 +18,14 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 ProgramRun run_tubesight(const support::TemporaryFolder& folder,
-                         const std::vector<std::string>& arguments) {
+                         const std::vector<std::string>& arguments, const std::string& input) {
   const support::TemporaryFolder streams;
   std::string command =
       "cd " + quoted(folder.path("")) + " && " TUBESIGHT_EMULATOR " " + quoted(TUBESIGHT_PROGRAM);
   for (const std::string& argument : arguments) {
     command += " " + quoted(argument);
   }
+  command += input.empty() ? "" : " < " + quoted(folder.path(input));
   command += " > " + quoted(streams.path("out")) + " 2> " + quoted(streams.path("err"));
   const int raw = std::system(command.c_str());
   ProgramRun run;

@@ -16,8 +16,10 @@ struct ProgramRun {
 
 /// Runs the built program, in an emulator where it is built for another machine.
 ///
-/// `folder` becomes the working folder, so that relative names lead there.
+/// `folder` becomes the working folder, so that relative names lead there. `input` is a file there
+/// that the program gets as its standard input; without one it is ours.
 [[nodiscard]] ProgramRun run_tubesight(const support::TemporaryFolder& folder,
-                                       const std::vector<std::string>& arguments);
+                                       const std::vector<std::string>& arguments,
+                                       const std::string& input = {});
 
 }  // namespace tubesight::tests

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <ratio>
 #include <string_view>
 #include <vector>
 
@@ -120,7 +122,8 @@ class CampaignCommand {
            campaign::lamp_kind_name(found.kind) + ": " + found.what);
     };
     watcher.done_run = [this](const campaign::LampProgress& now) {
-      line_.update(Clock::now(), now.total()[campaign::LampCount::kFields], core::FieldTime(0));
+      line_.update(Clock::now(),
+                   std::to_string(now.total()[campaign::LampCount::kFields]) + " fields");
     };
     const std::string trouble = campaign::run_lamp_campaign(plan_, progress, watcher);
     line_.erase();
@@ -169,13 +172,28 @@ class CampaignCommand {
   bool note(const Progress& progress) {
     const Clock::time_point now = Clock::now();
     const campaign::Counts total = progress.total();
-    line_.update(now, total[Count::kFields], core::FieldTime(0));
+    show(now, total[Count::kMoves], total[Count::kFields]);
     if (options_.resume.empty() || now < next_write_) {
       return true;
     }
     next_write_ = now + std::chrono::seconds(5);
     failed_ = !write_file(options_.resume, progress.text());
     return !failed_;
+  }
+
+  /// How far the campaign is towards the limit that it comes to first, and at this run's pace.
+  void show(Clock::time_point now, std::int64_t moves, std::int64_t fields) {
+    const auto part = [](double done, double of) { return of > 0.0 ? done / of : 0.0; };
+    const double hours = std::chrono::duration<double, std::ratio<3600>>(now - begun_).count();
+    const double done = std::max({part(static_cast<double>(moves), double(plan_.limits.moves)),
+                                  part(static_cast<double>(fields), double(plan_.limits.fields)),
+                                  part(hours, plan_.limits.hours)});
+    const double before = before_.value_or(done);
+    before_ = before;
+    const double share = before < 1.0 ? (done - before) / (1.0 - before) : 1.0;
+    const std::string left = share_words(share, now - begun_);
+    line_.update(now, std::to_string(moves) + " moves, " + std::to_string(fields) + " fields" +
+                          (left.empty() ? "" : ", of this run " + left));
   }
 
   ExitStatus merge() {
@@ -222,6 +240,8 @@ class CampaignCommand {
   const std::string& version_;
   CampaignPlan plan_;
   Progress progress_;
+  const Clock::time_point begun_ = Clock::now();
+  std::optional<double> before_;  ///< share done when this run's first move was
   ProgressLine line_{stderr, standard_error_is_terminal()};
   Clock::time_point next_write_{};
   bool failed_ = false;

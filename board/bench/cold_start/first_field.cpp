@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstddef>
 
-#include "drivers/replay/replay_frame_grabber.h"
+#include "board/bench/input/recording_input.h"
 
 namespace tubesight::board {
 
@@ -11,6 +11,16 @@ RecordedField read_first_field(const core::CameraSettings& camera, const std::st
                                std::int64_t frame) {
   RecordedField read;
   drivers::ReplayFrameGrabber grabber(camera, recording);
+  if (!feed(grabber, recording, read.message)) {
+    return read;
+  }
+  return read_first_field(grabber, camera, recording, frame);
+}
+
+RecordedField read_first_field(drivers::ReplayFrameGrabber& grabber,
+                               const core::CameraSettings& camera, const std::string& recording,
+                               std::int64_t frame) {
+  RecordedField read;
   if (!grabber.start()) {
     read.message =
         grabber.messages().empty() ? recording + ": cannot be read" : grabber.messages().front();

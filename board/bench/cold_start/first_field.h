@@ -6,6 +6,7 @@
 
 #include "core/base/settings.h"
 #include "core/picture/averaged_picture.h"
+#include "drivers/replay/replay_frame_grabber.h"
 
 namespace tubesight::board {
 
@@ -19,6 +20,11 @@ struct RecordedField {
 /// Reads the first field of a frame, the lines of the other one filled in between: the tool may
 /// move, and a start counts in that field.
 [[nodiscard]] RecordedField read_first_field(const core::CameraSettings& camera,
+                                             const std::string& recording, std::int64_t frame);
+
+/// The same by a grabber of that recording that was told how to read it, and not started.
+[[nodiscard]] RecordedField read_first_field(drivers::ReplayFrameGrabber& grabber,
+                                             const core::CameraSettings& camera,
                                              const std::string& recording, std::int64_t frame);
 
 }  // namespace tubesight::board

@@ -40,7 +40,9 @@ class LookRun {
       }
       status = one == ExitStatus::kDone ? status : one;
     }
-    return (lattices_ > 0 && !write()) || !write_out(text_) ? ExitStatus::kJobFailed : status;
+    return (lattices_ > 0 && !write()) || !write_out(text_, goes_to_standard_output({options_.csv}))
+               ? ExitStatus::kJobFailed
+               : status;
   }
 
  private:
@@ -48,6 +50,9 @@ class LookRun {
     if (!options_.overlay.empty() && options_.pictures.size() > 1) {
       return "--overlay: one picture for " + std::to_string(options_.pictures.size()) +
              ", expected one PICTURE";
+    }
+    if (std::string wrong = why_no_png("--overlay", options_.overlay); !wrong.empty()) {
+      return wrong;
     }
     std::vector<NamedPath> inputs;
     for (const std::string& picture : options_.pictures) {
@@ -89,8 +94,8 @@ class LookRun {
   bool write() {
     if (!options_.csv.empty()) {
       drivers::AtomicFile file;
-      if (!file.open(options_.csv) || !file.write(std::string(kLookHeader) + '\n' + rows_) ||
-          !file.commit()) {
+      if (!open_output(file, options_.csv) ||
+          !file.write(std::string(kLookHeader) + '\n' + rows_) || !file.commit()) {
         tell(file.message());
         return false;
       }

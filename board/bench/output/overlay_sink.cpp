@@ -1,15 +1,22 @@
 #include "board/bench/output/overlay_sink.h"
 
+#include "board/bench/output/background_sink.h"
+#include "board/bench/output/encoded_video.h"
+#include "board/bench/output/output_paths.h"
 #include "board/bench/output/picture_folder.h"
 #include "board/bench/output/picture_video.h"
+#include "drivers/ffmpeg/ffmpeg_encoder.h"
 
 namespace tubesight::board {
 
 std::unique_ptr<OverlaySink> make_overlay_sink(const std::string& out) {
-  if (out.ends_with(".y4m")) {
+  if (ending_of(out) == ".y4m") {
     return std::make_unique<PictureVideo>(out);
   }
-  return std::make_unique<PictureFolder>(out);
+  if (drivers::FfmpegEncoder::encodes(out)) {
+    return std::make_unique<EncodedVideo>(out);
+  }
+  return std::make_unique<BackgroundSink>(std::make_unique<PictureFolder>(out));
 }
 
 }  // namespace tubesight::board

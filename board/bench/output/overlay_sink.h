@@ -30,7 +30,8 @@ class OverlaySink {
   [[nodiscard]] virtual const std::string& message() const = 0;
 };
 
-/// What `--overlay OUT` asks for: a video when OUT ends in ".y4m", and a folder otherwise.
+/// What `--overlay OUT` asks for by OUT's ending in any case: a video when it is ".y4m", one that
+/// ffmpeg encodes when it is ".mp4", ".mkv" or ".mov", and a folder otherwise.
 [[nodiscard]] std::unique_ptr<OverlaySink> make_overlay_sink(const std::string& out);
 
 }  // namespace tubesight::board

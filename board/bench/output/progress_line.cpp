@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <unistd.h>
 
@@ -18,6 +19,7 @@ bool ProgressLine::due(Clock::time_point now) {
     return false;
   }
   if (!next_) {
+    begun_ = now;
     next_ = now + kBeforeFirst;
   }
   if (now < *next_) {
@@ -27,7 +29,29 @@ bool ProgressLine::due(Clock::time_point now) {
   return true;
 }
 
-void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time) {
+std::string share_words(double done, ProgressLine::Clock::duration passed) {
+  const double passed_s = std::chrono::duration<double>(passed).count();
+  if (done <= 0.0 || passed_s < 1.0) {
+    return {};
+  }
+  const double whole = std::min(done, 1.0);
+  constexpr double kLongest_s = 359'999.0;  // 99:59:59
+  const auto left = static_cast<long>(std::min(passed_s * (1.0 - whole) / whole, kLongest_s) + 0.5);
+  constexpr long kMinute = 60;
+  constexpr long kHour = 3600;
+  std::array<char, 60> text{};
+  if (left >= kHour) {
+    std::snprintf(text.data(), text.size(), "%.0f %%, %ld:%02ld:%02ld left",
+                  std::floor(100.0 * whole), left / kHour, left % kHour / kMinute, left % kMinute);
+  } else {
+    std::snprintf(text.data(), text.size(), "%.0f %%, %ld:%02ld left", std::floor(100.0 * whole),
+                  left / kMinute, left % kMinute);
+  }
+  return text.data();
+}
+
+void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::FieldTime time,
+                          double done) {
   if (!due(now)) {
     return;
   }
@@ -35,7 +59,8 @@ void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::Fiel
   const double seconds = std::chrono::duration<double>(time).count();
   std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
                 static_cast<long long>(fields), seconds);
-  write(text.data());
+  const std::string share = share_words(done, now - *begun_);
+  write(share.empty() ? std::string(text.data()) : std::string(text.data()) + ", " + share);
 }
 
 void ProgressLine::update(Clock::time_point now, std::string_view words) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/base/field.h"
@@ -23,9 +24,11 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() { erase(); }
 
-  /// Says that `fields` fields up to the recorded time `time` are done. Writes four times a second
-  /// at most, for the first time after half a second: short jobs show nothing.
-  void update(Clock::time_point now, std::int64_t fields, core::FieldTime time);
+  /// Says that `fields` fields up to the recorded time `time` are done, and that this is the share
+  /// `done` of the job, 0..1, with the time that is left at this pace; below 0: nobody knows.
+  /// Writes four times a second at most, for the first time after half a second: short jobs show
+  /// nothing.
+  void update(Clock::time_point now, std::int64_t fields, core::FieldTime time, double done = -1.0);
   /// The same of any job, in its own words.
   void update(Clock::time_point now, std::string_view words);
 
@@ -39,8 +42,13 @@ class ProgressLine {
   std::FILE* stream_;
   bool shown_;
   std::size_t width_ = 0;  ///< characters that stand on the terminal
+  std::optional<Clock::time_point> begun_;
   std::optional<Clock::time_point> next_;
 };
+
+/// "42 %, 0:35 left": what a job of which the share `done` took `passed` has before it. Empty while
+/// nobody can tell: nothing is done, or it was for less than a second.
+[[nodiscard]] std::string share_words(double done, ProgressLine::Clock::duration passed);
 
 /// Whether standard error is a terminal.
 [[nodiscard]] bool standard_error_is_terminal();

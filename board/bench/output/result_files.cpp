@@ -1,5 +1,6 @@
 #include "board/bench/output/result_files.h"
 
+#include "board/bench/output/output_paths.h"
 #include "drivers/files/result_csv.h"
 
 namespace tubesight::board {
@@ -43,7 +44,7 @@ Result<void> ResultFiles::begin(AtomicFile& file, const std::string& path,
   if (path.empty()) {
     return {};
   }
-  if (const auto opened = file.open(path); !opened) {
+  if (const auto opened = open_output(file, path); !opened) {
     message_ = file.message();
     return opened;
   }

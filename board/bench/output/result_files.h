@@ -18,7 +18,7 @@ namespace tubesight::board {
 /// message() tells in one line.
 class ResultFiles {
  public:
-  /// Begins the files; an empty path leaves one out.
+  /// Begins the files; an empty path leaves one out, and "-" is standard output.
   [[nodiscard]] core::Result<void> open(const std::string& fields, const std::string& centers);
 
   /// Appends the row of a field and those of its measured tube-ends. Recognised plugs are no

@@ -1,5 +1,6 @@
 #include "board/bench/output/still_reader.h"
 
+#include "board/bench/input/recording_input.h"
 #include "drivers/files/csv_reader.h"
 
 namespace tubesight::board {
@@ -27,14 +28,10 @@ bool parse_frames(std::string_view text, FrameRange& frames) {
          parse_frame(text.substr(dash + 1), frames.last) && frames.first <= frames.last;
 }
 
-bool is_recording(std::string_view file) {
-  return file.ends_with(".y4m") || file.ends_with(".y4m.xz");
-}
-
 std::vector<Still> stills_of(std::span<const std::string> files, FrameRange frames) {
   std::vector<Still> stills;
   for (const std::string& file : files) {
-    if (!is_recording(file)) {
+    if (!is_named_as_recording(file)) {
       stills.push_back({file});
       continue;
     }
@@ -47,8 +44,30 @@ std::vector<Still> stills_of(std::span<const std::string> files, FrameRange fram
 
 core::Result<void> StillReader::read(const Still& still, drivers::GreyPicture& picture,
                                      std::string& message) {
-  return still.frame < 0 ? drivers::read_grey_picture(still.file, picture, message)
-                         : read_frame(still, picture, message);
+  if (still.frame >= 0) {
+    return read_frame(still, picture, message);
+  }
+  const auto read = drivers::read_grey_picture(still.file, picture, message);
+  const bool foreign =
+      !read &&
+      (read.error() == core::Error::kUnsupported ||
+       (read.error() == core::Error::kInvalidArgument && !drivers::is_grey_picture(still.file)));
+  return foreign ? read_foreign(still.file, picture, message) : read;
+}
+
+core::Result<void> StillReader::read_foreign(const std::string& file, drivers::GreyPicture& picture,
+                                             std::string& message) {
+  drivers::Y4mReader reader;
+  TUBESIGHT_TRY(open_foreign_still(reader, file, message));
+  picture.width_px = reader.header().width_px;
+  picture.height_px = reader.header().height_px;
+  picture.pixels.resize(static_cast<std::size_t>(reader.header().luma_bytes()));
+  const auto read = reader.read_frame(picture.pixels);
+  if (!read) {
+    message =
+        read.error() == core::Error::kEndOfData ? file + ": holds no picture" : reader.message();
+  }
+  return read;
 }
 
 core::Result<void> StillReader::read_frame(const Still& still, drivers::GreyPicture& picture,
@@ -63,8 +82,9 @@ core::Result<void> StillReader::read_frame(const Still& still, drivers::GreyPict
     return core::Unexpected(error == core::Error::kEndOfData ? core::Error::kOutOfRange : error);
   };
   if (open_ != still.file || reader_.frames_read() > still.frame) {
-    if (const auto opened = reader_.open(still.file); !opened) {
-      return fail(opened.error());
+    if (const auto opened = open_frames(reader_, still.file, message); !opened) {
+      open_.clear();
+      return opened;
     }
     open_ = still.file;
   }

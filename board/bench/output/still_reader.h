@@ -30,21 +30,21 @@ struct FrameRange {
 /// Reads "A" or "A-B", 0 <= A <= B <= 99999. False when it is anything else.
 [[nodiscard]] bool parse_frames(std::string_view text, FrameRange& frames);
 
-/// Whether a file's name ends as a recording's: `.y4m` or `.y4m.xz`.
-[[nodiscard]] bool is_recording(std::string_view file);
-
-/// Each picture once, each recording once for each of `frames`, in the order given.
+/// Each picture once, each file named as a recording once for each of `frames`, in the order given.
 [[nodiscard]] std::vector<Still> stills_of(std::span<const std::string> files, FrameRange frames);
 
 /// Reads stills one by one; frames of one recording, taken in rising order, in one pass over it.
 class StillReader {
  public:
-  /// Errors: those of drivers::read_grey_picture() and drivers::Y4mReader; kOutOfRange the
+  /// PNG and PGM are read by ourselves, other pictures through ffmpeg. Errors: those of
+  /// drivers::read_grey_picture(), drivers::Y4mReader and open_foreign_still(); kOutOfRange the
   /// recording has no such frame. `message` is one line that begins with the file's name.
   [[nodiscard]] core::Result<void> read(const Still& still, drivers::GreyPicture& picture,
                                         std::string& message);
 
  private:
+  static core::Result<void> read_foreign(const std::string& file, drivers::GreyPicture& picture,
+                                         std::string& message);
   core::Result<void> read_frame(const Still& still, drivers::GreyPicture& picture,
                                 std::string& message);
 

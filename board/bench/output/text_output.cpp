@@ -14,7 +14,11 @@ void tell(const std::vector<std::string>& messages) {
   }
 }
 
-bool write_out(const std::string& text) {
+bool write_out(const std::string& text, bool taken) {
+  if (taken) {
+    std::fputs(text.c_str(), stderr);
+    return true;
+  }
   if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) {
     std::perror("standard output: cannot be written");
     drivers::CommitTogether::fail_current();

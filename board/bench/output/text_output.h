@@ -9,8 +9,9 @@ namespace tubesight::board {
 void tell(const std::string& message);
 void tell(const std::vector<std::string>& messages);
 
-/// Writes results for a person to standard output; says false, and why to standard error, when they
-/// did not get there.
-[[nodiscard]] bool write_out(const std::string& text);
+/// Writes results for a person to standard output, or to standard error where `taken`: an output of
+/// the command goes to standard output. Says false, and why to standard error, when they did not
+/// get there.
+[[nodiscard]] bool write_out(const std::string& text, bool taken = false);
 
 }  // namespace tubesight::board

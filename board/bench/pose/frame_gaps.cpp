@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "board/bench/input/recording_input.h"
 #include "core/base/field.h"
 #include "core/tubesheet/tubesheet_setup.h"
 #include "drivers/replay/replay_frame_grabber.h"
@@ -24,8 +25,8 @@ FrameGaps find_frame_gaps(const core::SessionSettings& settings, const std::stri
     return gaps;
   };
   drivers::ReplayFrameGrabber grabber(settings.camera, recording);
-  if (!grabber.start()) {
-    return wrong(grabber.messages());
+  if (std::string why; !feed(grabber, recording, why) || !grabber.start()) {
+    return wrong(why.empty() ? grabber.messages() : drivers::Messages{why});
   }
   const auto lattice = core::tubesheet::make_lattice<double>(settings.tubesheet);
   if (!lattice) {

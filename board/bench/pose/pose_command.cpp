@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "board/bench/cold_start/cold_start.h"
+#include "board/bench/input/recording_input.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/pose_rows.h"
 #include "board/bench/output/still_averager.h"
@@ -57,7 +58,7 @@ class PoseRun {
     if (poses_ > 0 && !write()) {
       return ExitStatus::kJobFailed;
     }
-    if (!write_out(text_)) {
+    if (!write_out(text_, goes_to_standard_output({options_.csv, options_.covariance}))) {
       return ExitStatus::kJobFailed;
     }
     return status;
@@ -95,8 +96,10 @@ class PoseRun {
              ", expected A-B or A, frames of a recording counted from 0");
         return false;
       }
-      if (std::none_of(options_.images.begin(), options_.images.end(), is_recording)) {
-        tell("--frames: no recording is given, expected a file that ends in .y4m or .y4m.xz");
+      if (std::none_of(options_.images.begin(), options_.images.end(), is_named_as_recording)) {
+        tell(
+            "--frames: no recording is given, expected a file that ends in .y4m, .y4m.xz, .mp4 or "
+            "as another video");
         return false;
       }
     }
@@ -223,6 +226,10 @@ class PoseRun {
     }
     if (const std::string clash = find_output_conflict(options_); !clash.empty()) {
       tell(clash);
+      return false;
+    }
+    if (const std::string wrong = why_no_png("--overlay", options_.overlay); !wrong.empty()) {
+      tell(wrong);
       return false;
     }
     return true;
@@ -353,7 +360,7 @@ class PoseRun {
     if (path.empty()) {
       return true;
     }
-    if (!file.open(path) || !file.write(std::string_view(text)) || !file.commit()) {
+    if (!open_output(file, path) || !file.write(std::string_view(text)) || !file.commit()) {
       tell(file.message());
       return false;
     }

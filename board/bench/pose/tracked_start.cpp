@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "board/bench/cold_start/first_field.h"
+#include "board/bench/input/recording_input.h"
 #include "board/bench/script/replay_script.h"
 #include "board/bench/script/scripted_ports.h"
 #include "board/box/box_loop.h"
@@ -64,6 +65,11 @@ struct TrackedStart::Run {
   /// Opens everything; the message of a failure stays for every frame.
   bool open(const core::SessionSettings& settings, StartFrame where) {
     drivers::Messages messages;
+    std::string why;
+    if (!feed(grabber, recording, why)) {
+      trouble = why;
+      return false;
+    }
     bool good = static_cast<bool>(grabber.start());
     messages = grabber.messages();
     if (where.with_events) {

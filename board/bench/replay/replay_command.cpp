@@ -10,18 +10,22 @@
 
 #include "board/bench/cold_start/cold_start.h"
 #include "board/bench/cold_start/first_field.h"
+#include "board/bench/input/recording_input.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/overlay_sink.h"
 #include "board/bench/output/pose_rows.h"
 #include "board/bench/output/progress_line.h"
+#include "board/bench/output/replies_rows.h"
 #include "board/bench/output/result_files.h"
 #include "board/bench/output/text_output.h"
 #include "board/bench/replay/replay_job.h"
 #include "board/bench/replay/replay_statistics.h"
+#include "board/bench/replay/summary_json.h"
 #include "board/bench/replay/summary_text.h"
 #include "board/box/pose_service.h"
 #include "core/overlay/overlay.h"
 #include "drivers/files/atomic_file.h"
+#include "drivers/files/decimal.h"
 #include "drivers/files/messages.h"
 #include "drivers/files/pairs_file.h"
 #include "drivers/replay/companion.h"
@@ -37,21 +41,28 @@ namespace {
 class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
-      : options_(options), progress_(stderr, standard_error_is_terminal()) {}
+      : options_(options),
+        recording_(options.recording == kStandardStream ? "standard input" : options.recording),
+        progress_(stderr, standard_error_is_terminal() && !options.quiet) {}
 
   ExitStatus run() {
     if (!open_inputs() || !open_outputs()) {
       return ExitStatus::kWrongInput;
     }
+    tell_how_read();
     const ReplayEnd end = replay();
     progress_.erase();
     tell(end.messages);
     if (end.status != ExitStatus::kDone) {
       return end.status;
     }
+    if (statistics_.fields() == 0 && !grabber_->choice().all()) {
+      tell(recording_ + ": has no field there, expected some from --from to --to");
+      return ExitStatus::kWrongInput;
+    }
     tell_events_left();
     tell_request_left();
-    if (!commit()) {
+    if (!commit(end.cut_short)) {
       return ExitStatus::kJobFailed;
     }
     return summarise(end.cut_short);
@@ -59,6 +70,10 @@ class Replay {
 
  private:
   bool open_inputs() {
+    if (options_.to_s >= 0.0 && options_.from_s > options_.to_s) {
+      tell("--from: is after --to, expected it before");
+      return false;
+    }
     drivers::Messages messages;
     bool good = read_state(messages);
     drivers::NeededTables needed = drivers::kReplayNeeds;
@@ -67,21 +82,65 @@ class Replay {
         drivers::load_session_settings(options_.session, needed, *session_file_, messages) && good;
     // A recording can be judged only against sound settings, its events without any.
     if (good) {
-      grabber_ = std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera,
-                                                               options_.recording);
-      if (has_state_) {
-        grabber_->follow_rows();
-      }
-      good = static_cast<bool>(grabber_->start());
-      messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
+      grabber_ = make_grabber(messages);
+      good = grabber_ != nullptr && start_grabber(messages);
     }
     good = good && (has_state_ || fields_come_often_enough(messages));
-    good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
+    if (!from_standard_input()) {
+      good = static_cast<bool>(events_.load_beside(options_.recording, messages)) && good;
+    }
     if (good && !has_state_) {
       expand_start(messages);
     }
     tell(messages);
     return good;
+  }
+
+  [[nodiscard]] bool from_standard_input() const { return options_.recording == kStandardStream; }
+
+  [[nodiscard]] drivers::FrameChoice frame_choice() const {
+    const auto time = [](double seconds) {
+      return std::chrono::duration_cast<core::FieldTime>(std::chrono::duration<double>(seconds));
+    };
+    drivers::FrameChoice choice;
+    choice.from = options_.from_s >= 0.0 ? time(options_.from_s) : choice.from;
+    choice.to = options_.to_s >= 0.0 ? time(options_.to_s) : choice.to;
+    choice.every = options_.every;
+    return choice;
+  }
+
+  /// A grabber of the recording that is told all and not started; null when it cannot be read.
+  std::unique_ptr<drivers::ReplayFrameGrabber> make_grabber(drivers::Messages& messages) {
+    auto grabber =
+        std::make_unique<drivers::ReplayFrameGrabber>(session_file_->settings.camera, recording_);
+    if (has_state_ && !frame_choice().all()) {
+      messages.push_back(recording_ +
+                         ": of a box's recorder, whose state holds for its first "
+                         "field, expected neither --from nor --to nor --every");
+      return nullptr;
+    }
+    std::string why;
+    if (!feed(*grabber, options_.recording, why)) {
+      messages.push_back(why);
+      return nullptr;
+    }
+    if (has_state_) {
+      grabber->follow_rows();
+    }
+    if (options_.ignore_scan_flag) {
+      grabber->ignore_scan_flag();
+    }
+    grabber->choose(frame_choice());
+    return grabber;
+  }
+
+  bool start_grabber(drivers::Messages& messages) {
+    const bool started = static_cast<bool>(grabber_->start());
+    messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
+    if (grabber_->scan_disagrees()) {
+      messages.back() += "; where the recording's flag is what is wrong: --ignore-scan-flag";
+    }
+    return started;
   }
 
   /// One or two clicks become a start by the lattice in the first field. Where they do not, the
@@ -91,8 +150,17 @@ class Replay {
     if (start.tubes.empty() || start.tubes.size() >= static_cast<std::int32_t>(kWholeStart)) {
       return;
     }
+    if (from_standard_input()) {
+      messages.push_back(options_.session +
+                         ": start: standard input is read once, expected three clicks");
+      return;
+    }
+    const auto again = make_grabber(messages);
+    if (again == nullptr) {
+      return;
+    }
     const RecordedField field =
-        read_first_field(session_file_->settings.camera, options_.recording, 0);
+        read_first_field(*again, session_file_->settings.camera, options_.recording, 0);
     if (!field.message.empty()) {
       messages.push_back(field.message);
       return;
@@ -115,6 +183,9 @@ class Replay {
 
   /// With a state beside it, the recording is of a box's recorder.
   bool read_state(drivers::Messages& messages) {
+    if (from_standard_input()) {
+      return true;
+    }
     const auto present = drivers::read_companion(
         drivers::companion_path(options_.recording, ".state"), state_, messages);
     has_state_ = present.value_or(false);
@@ -131,7 +202,7 @@ class Replay {
     const std::string why = drivers::why_fields_too_seldom(
         settings.motion, settings.tubesheet, std::chrono::duration<double>(span).count());
     if (!why.empty()) {
-      messages.push_back(options_.session + ": motion: " + options_.recording + ": " + why);
+      messages.push_back(options_.session + ": motion: " + recording_ + ": " + why);
     }
     return why.empty();
   }
@@ -146,15 +217,25 @@ class Replay {
       return false;
     }
     if (!options_.poses.empty() &&
-        (!poses_file_.open(options_.poses) ||
+        (!open_output(poses_file_, options_.poses) ||
          !poses_file_.write(std::string_view(std::string(kPoseHeader) + '\n')))) {
       tell(poses_file_.message());
       return false;
     }
     if (std::string ignored;
         !options_.pairs.empty() &&
-        !(pairs_.begin({}, options_.pairs, ignored) && pairs_file_.open(options_.pairs))) {
+        !(pairs_.begin({}, options_.pairs, ignored) && open_output(pairs_file_, options_.pairs))) {
       tell(pairs_file_.message());
+      return false;
+    }
+    if (!options_.replies.empty() &&
+        (!open_output(replies_file_, options_.replies) ||
+         !replies_file_.write(std::string_view(std::string(kRepliesHeader) + '\n')))) {
+      tell(replies_file_.message());
+      return false;
+    }
+    if (!options_.summary.empty() && !open_output(summary_file_, options_.summary)) {
+      tell(summary_file_.message());
       return false;
     }
     if (!options_.overlay.empty()) {
@@ -170,21 +251,55 @@ class Replay {
   }
 
   ReplayEnd replay() {
-    ReplayInputs inputs{
-        options_.session, options_.recording, session_file_->settings, *grabber_, events_, {}};
+    ReplayInputs inputs{options_.session, recording_, session_file_->settings,
+                        *grabber_,        events_,    {}};
     if (has_state_) {
       inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
     }
-    const ReplayOutputs outputs{
-        results_,    overlay_.get(), options_.overlay_estimates,
-        poses_,      pose_rows_,     options_.pairs.empty() ? nullptr : &pairs_,
-        statistics_, progress_};
+    const ReplayOutputs outputs{results_,
+                                overlay_.get(),
+                                options_.overlay_estimates,
+                                poses_,
+                                pose_rows_,
+                                options_.replies.empty() ? nullptr : &replies_file_,
+                                options_.pairs.empty() ? nullptr : &pairs_,
+                                statistics_,
+                                progress_};
     switch (options_.scalar) {
       case ScalarChoice::kFloat: return replay_fields<float>(inputs, outputs);
       case ScalarChoice::kDouble: return replay_fields<double>(inputs, outputs);
       case ScalarChoice::kFixed: break;
     }
     return replay_fields<core::FixedPoint>(inputs, outputs);
+  }
+
+  /// With `--verbose`; and of --from what whoever clicked has to know.
+  void tell_how_read() const {
+    if (options_.from_s > 0.0 && !has_state_ && !session_file_->settings.start.tubes.empty()) {
+      tell(options_.session +
+           ": start: taken to be clicked in the first field from --from on, and earlier events are "
+           "left out");
+    }
+    if (!options_.verbose) {
+      return;
+    }
+    const drivers::Y4mHeader& header = grabber_->header();
+    std::string text = recording_ + ": ";
+    drivers::print(text, "%d x %d pixels, %d bits, %s", header.width_px, header.height_px,
+                   header.depth_bits, grabber_->interlaced() ? "interlaced" : "progressive");
+    if (header.rate_numerator > 0) {
+      drivers::print(text, ", %.3f frames a second",
+                     static_cast<double>(header.rate_numerator) /
+                         static_cast<double>(header.rate_denominator));
+    }
+    switch (kind_of_recording(options_.recording)) {
+      case RecordingKind::kY4m:
+      case RecordingKind::kStandardInput: text += ", read by itself"; break;
+      case RecordingKind::kVideo: text += ", read through ffmpeg"; break;
+    }
+    text += grabber_->has_meta() ? ", times by its meta file" : ", no meta file";
+    drivers::print(text, ", %lld events", static_cast<long long>(events_.size()));
+    tell(text);
   }
 
   void tell_events_left() {
@@ -197,13 +312,17 @@ class Replay {
 
   void tell_request_left() {
     if (poses_.unanswered() >= 0) {
-      tell(options_.recording + ": the pose request before field " +
-           std::to_string(poses_.unanswered()) +
+      tell(recording_ + ": the pose request before field " + std::to_string(poses_.unanswered()) +
            " got no answer: the recording ended before it was ready");
     }
   }
 
-  bool commit() {
+  [[nodiscard]] RecordingFacts facts(bool cut_short) const {
+    const drivers::Y4mHeader& header = grabber_->header();
+    return {recording_, header.width_px, header.height_px, grabber_->interlaced(), cut_short};
+  }
+
+  bool commit(bool cut_short) {
     if (!results_.commit()) {
       tell(results_.message());
       return false;
@@ -217,6 +336,16 @@ class Replay {
       tell(pairs_file_.message());
       return false;
     }
+    if (!options_.replies.empty() && !replies_file_.commit()) {
+      tell(replies_file_.message());
+      return false;
+    }
+    if (!options_.summary.empty() &&
+        (!summary_file_.write(std::string_view(summary_json(facts(cut_short), statistics_))) ||
+         !summary_file_.commit())) {
+      tell(summary_file_.message());
+      return false;
+    }
     // Last, as pictures in a folder cannot wait for the files (drivers::CommitTogether).
     if (overlay_ != nullptr && !overlay_->commit()) {
       tell(overlay_->message());
@@ -226,17 +355,22 @@ class Replay {
   }
 
   ExitStatus summarise(bool cut_short) {
-    const drivers::Y4mHeader& header = grabber_->header();
-    const std::string text = summary_text(
-        {options_.recording, header.width_px, header.height_px, grabber_->interlaced(), cut_short},
-        statistics_);
-    if (!write_out(text)) {
+    const bool taken =
+        goes_to_standard_output({options_.fields, options_.centers, options_.poses, options_.pairs,
+                                 options_.replies, options_.summary});
+    if (!options_.quiet && !write_out(summary_text(facts(cut_short), statistics_), taken)) {
       return ExitStatus::kJobFailed;
+    }
+    const std::string lost = options_.must_track ? why_not_tracked(recording_, statistics_) : "";
+    if (!lost.empty()) {
+      tell(lost);
+      return ExitStatus::kNotTracked;
     }
     return ExitStatus::kDone;
   }
 
   ReplayOptions options_;
+  std::string recording_;  ///< as messages call it
   std::unique_ptr<drivers::SessionFile> session_file_ = std::make_unique<drivers::SessionFile>();
   std::unique_ptr<drivers::ReplayFrameGrabber> grabber_;
   drivers::ReplayEvents events_;
@@ -249,6 +383,8 @@ class Replay {
   drivers::AtomicFile poses_file_;
   drivers::PairsText pairs_;
   drivers::AtomicFile pairs_file_;
+  drivers::AtomicFile replies_file_;
+  drivers::AtomicFile summary_file_;
   ReplayStatistics statistics_;
   ProgressLine progress_;
 };

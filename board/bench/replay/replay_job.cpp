@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "board/bench/output/pose_rows.h"
+#include "board/bench/output/replies_rows.h"
 #include "board/bench/replay/replay_station.h"
 #include "board/bench/script/replay_script.h"
 #include "board/bench/script/scripted_ports.h"
@@ -79,6 +81,9 @@ class ReplayJob {
     if (!session_.configure(in_.settings) || !out_.poses.configure(in_.settings)) {
       return {ExitStatus::kWrongInput, false, {in_.session + kBeyondArithmetic}};
     }
+    if (!in_.grabber.choice().all()) {
+      script_.begin_at_first_field();
+    }
     if (in_.settings.start.tubes.empty()) {
       script_.leave_start_out();  // nobody has named tubes yet
     }
@@ -136,7 +141,11 @@ class ReplayJob {
       }
     }
     out_.statistics.add(output);
-    out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure);
+    if (const auto written = write_down_replies(output); !written) {
+      return written;
+    }
+    out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure,
+                         in_.grabber.share_read());
     if (const auto written =
             out_.results.add(field.number, field.parity, output.sighting, output.tubes);
         !written) {
@@ -144,6 +153,21 @@ class ReplayJob {
       return written;
     }
     return show(output.sighting);
+  }
+
+  Result<void> write_down_replies(const core::session::Output& output) {
+    if (out_.replies == nullptr || output.replies.empty()) {
+      return {};
+    }
+    rows_.clear();
+    for (const core::Reply& reply : output.replies) {
+      append_reply_row(rows_, in_.grabber.field_number(), reply);
+    }
+    const auto written = out_.replies->write(std::string_view(rows_));
+    if (!written) {
+      message_ = out_.replies->message();
+    }
+    return written;
   }
 
   Result<void> show(const core::Sighting& sighting) {
@@ -194,6 +218,7 @@ class ReplayJob {
   PairDesk pair_desk_;
   std::optional<Display> display_;
   std::optional<BoxLoop<S>> loop_;
+  std::string rows_;
   std::string message_;
 };
 

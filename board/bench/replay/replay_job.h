@@ -13,6 +13,7 @@
 #include "board/box/pose_service.h"
 #include "core/base/scalar.h"
 #include "core/base/settings.h"
+#include "drivers/files/atomic_file.h"
 #include "drivers/files/messages.h"
 #include "drivers/files/pairs_file.h"
 #include "drivers/replay/replay_events.h"
@@ -38,8 +39,9 @@ struct ReplayOutputs {
   OverlaySink* overlay;  ///< null: none wanted
   bool overlay_estimates;
   PoseService& poses;
-  std::string& pose_rows;     ///< of `pose --csv`, one a request computed
-  drivers::PairsText* pairs;  ///< of poses by the robot and by the box; null: none wanted
+  std::string& pose_rows;        ///< of `pose --csv`, one a request computed
+  drivers::AtomicFile* replies;  ///< rows of answers are appended; null: none wanted
+  drivers::PairsText* pairs;     ///< of poses by the robot and by the box; null: none wanted
   ReplayStatistics& statistics;
   ProgressLine& progress;
 };

@@ -2,15 +2,34 @@
 
 #include <array>
 
+#include "board/bench/input/recording_input.h"
 #include "board/bench/output/output_paths.h"
+#include "drivers/ffmpeg/ffmpeg_encoder.h"
 #include "drivers/replay/companion.h"
 
 namespace tubesight::board {
 
+namespace {
+
+std::string why_no_overlay(const std::string& out) {
+  if (out == kStandardStream) {
+    return "--overlay: '-' would be pictures on standard output, expected a folder, or a name that "
+           "ends in .mp4, .mkv, .mov or .y4m";
+  }
+  const bool made = ending_of(out) == ".y4m" || drivers::FfmpegEncoder::encodes(out);
+  if (!made && is_named_as_file(out)) {
+    return "--overlay: '" + out +
+           "' is named as a file of another kind, expected a folder for PNG pictures, or a name "
+           "that ends in .mp4, .mkv, .mov or .y4m";
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string find_output_conflict(const ReplayOptions& options) {
-  if (options.overlay.ends_with(".y4m.xz")) {
-    return "--overlay: '" + options.overlay +
-           "' would be a compressed video, expected a folder or a name that ends in .y4m";
+  if (std::string wrong = why_no_overlay(options.overlay); !wrong.empty()) {
+    return wrong;
   }
   const std::array inputs = {
       NamedPath{"the session", options.session},
@@ -24,7 +43,8 @@ std::string find_output_conflict(const ReplayOptions& options) {
   const std::array outputs = {
       NamedPath{"--fields", options.fields},   NamedPath{"--centers", options.centers},
       NamedPath{"--overlay", options.overlay}, NamedPath{"--poses", options.poses},
-      NamedPath{"--pairs", options.pairs},
+      NamedPath{"--pairs", options.pairs},     NamedPath{"--replies", options.replies},
+      NamedPath{"--summary", options.summary},
   };
   return find_clash(inputs, outputs);
 }

@@ -8,7 +8,8 @@ namespace tubesight::board {
 /// The arithmetic of the tracking path; `--scalar`.
 enum class ScalarChoice : std::uint8_t { kFixed, kFloat, kDouble };
 
-/// The arguments of `tubesight replay`; an empty path is one that was not given.
+/// The arguments of `tubesight replay`; an empty path is one that was not given, "-" is standard
+/// input or output.
 struct ReplayOptions {
   std::string session;
   std::string recording;
@@ -17,12 +18,21 @@ struct ReplayOptions {
   std::string overlay;
   std::string poses;
   std::string pairs;
+  std::string replies;
+  std::string summary;
+  double from_s = -1.0;  ///< below 0: from the beginning
+  double to_s = -1.0;    ///< below 0: to the end
+  std::int64_t every = 1;
+  bool ignore_scan_flag = false;
+  bool must_track = false;
+  bool quiet = false;
+  bool verbose = false;
   bool overlay_estimates = false;
   ScalarChoice scalar = ScalarChoice::kFixed;
 };
 
 /// Says in one line why the outputs of a replay cannot go where they are told to, as find_clash()
-/// does; also a compressed video. Empty when they can.
+/// does; also an overlay whose name is that of something that is not written. Empty when they can.
 [[nodiscard]] std::string find_output_conflict(const ReplayOptions& options);
 
 }  // namespace tubesight::board

@@ -192,6 +192,22 @@ void print_passed(std::string& out, const ReplayStatistics& statistics) {
 
 }  // namespace
 
+std::string why_not_tracked(const std::string& recording, const ReplayStatistics& statistics) {
+  if (statistics.state(TrackState::kTracking).fields +
+          statistics.state(TrackState::kDegraded).fields ==
+      0) {
+    return recording + ": never started, expected a start that is taken, for --must-track";
+  }
+  if (statistics.losses().empty()) {
+    return {};
+  }
+  const ReplayStatistics::Loss& loss = statistics.losses().front();
+  std::string text = recording;
+  print(text, ": lost at %.3f s: %s, expected to be tracked to its end, for --must-track",
+        seconds(loss.at), c_str(core::name_of(loss.reason)));
+  return text;
+}
+
 std::string summary_text(const RecordingFacts& recording, const ReplayStatistics& statistics) {
   std::string out;
   print_recording(out, recording, statistics);

@@ -21,4 +21,9 @@ struct RecordingFacts {
 [[nodiscard]] std::string summary_text(const RecordingFacts& recording,
                                        const ReplayStatistics& statistics);
 
+/// Says in one line why a recording was not tracked from a start to its end, for `--must-track`:
+/// no start was taken, or it was lost. Empty when it was.
+[[nodiscard]] std::string why_not_tracked(const std::string& recording,
+                                          const ReplayStatistics& statistics);
+
 }  // namespace tubesight::board

@@ -10,6 +10,12 @@ ReplayScript::ReplayScript(const core::StartSettings& start, drivers::ReplayEven
 }
 
 const core::Event* ReplayScript::next() {
+  if (skips_) {
+    skips_ = false;
+    while (recorded_->next_before(grabber_->field_number() - 1) != nullptr) {
+      recorded_->take_next();
+    }
+  }
   return started_ ? recorded_->next_before(grabber_->field_number()) : &start_;
 }
 

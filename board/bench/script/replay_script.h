@@ -19,12 +19,17 @@ class ReplayScript final : public EventScript {
   /// Leaves the settings' start out: the recording is of a session that had started before.
   void leave_start_out() { started_ = true; }
 
+  /// Leaves out events of fields before the first one: the recording is replayed from there on, and
+  /// what was clicked into another picture is no click into that one.
+  void begin_at_first_field() { skips_ = true; }
+
   [[nodiscard]] const core::Event* next() override;
   void take() override;
   [[nodiscard]] core::FieldTime field_time() const override { return grabber_->field_time(); }
 
  private:
   core::Event start_;
+  bool skips_ = false;
   bool started_ = false;  ///< the start was taken, or left out
   drivers::ReplayEvents* recorded_;
   const drivers::ReplayFrameGrabber* grabber_;

@@ -86,12 +86,33 @@ TEST(ParseY4mHeader, SaysWhichParameterIsWrong) {
             "header parameter 'Ix': expected It, Ib or Ip");
   EXPECT_EQ(why("YUV4MPEG2 W5 H3 Im", core::Error::kUnsupported),
             "header says Im (mixed interlacing): expected It, Ib or Ip");
-  EXPECT_EQ(why("YUV4MPEG2 W5 H3 C420p10", core::Error::kUnsupported),
-            "colour format 'C420p10' is not supported: expected 8 bits as Cmono, C420jpeg, "
-            "C420mpeg2, C420paldv, C411, C422 or C444");
-  EXPECT_EQ(why("YUV4MPEG2 W5 H3 Cmono16", core::Error::kUnsupported),
-            "colour format 'Cmono16' is not supported: expected 8 bits as Cmono, C420jpeg, "
-            "C420mpeg2, C420paldv, C411, C422 or C444");
+  for (const std::string colour : {"C410", "C420p17", "C411p10", "Cmono8", "Cmonop10"}) {
+    EXPECT_EQ(
+        why("YUV4MPEG2 W5 H3 " + colour, core::Error::kUnsupported),
+        "colour format '" + colour +
+            "' is not supported: expected Cmono, C420jpeg, C420mpeg2, C420paldv, C411, C422 or "
+            "C444, or 9 to 16 bits as in Cmono10, C420p10, C422p10 or C444p10");
+  }
+}
+
+TEST(Y4mHeader, TakesSamplesOfTwoBytes) {
+  const auto header = [](std::string_view colour) {
+    std::string message;
+    const auto parsed = parse_y4m_header("YUV4MPEG2 W5 H3 " + std::string(colour), message);
+    EXPECT_TRUE(parsed) << message;
+    return parsed.value_or(Y4mHeader{});
+  };
+
+  EXPECT_EQ(header("Cmono16").depth_bits, 16);
+  EXPECT_EQ(header("Cmono16").stored_luma_bytes(), 30);
+  EXPECT_EQ(header("Cmono16").luma_bytes(), 15);
+  EXPECT_EQ(header("Cmono16").chroma_bytes, 0);
+  EXPECT_EQ(header("C420p10").depth_bits, 10);
+  EXPECT_EQ(header("C420p10").chroma_bytes, 24);
+  EXPECT_EQ(header("C422p12").chroma_bytes, 36);
+  EXPECT_EQ(header("C444p9").chroma_bytes, 60);
+  EXPECT_EQ(header("C444").depth_bits, 8);
+  EXPECT_EQ(header("C444").stored_luma_bytes(), 15);
 }
 
 }  // namespace

@@ -49,6 +49,37 @@ TEST(Y4mReader, PassesOverChroma) {
   }
 }
 
+TEST(Y4mReader, GivesTheUpperBitsOfDeepSamples) {
+  // 10 bits: 0x3FF, 0x200, 0x003 and, beyond them, 0x1234.
+  const std::string text = std::string("YUV4MPEG2 W4 H1 C420p10\nFRAME\n") +
+                           std::string("\xFF\x03\x00\x02\x03\x00\x34\x12", 8) +
+                           std::string(8, '\x7F');
+  Y4mReader reader;
+  Luma luma(4);
+
+  ASSERT_TRUE(reader.open(source_of(text), "a.y4m"));
+  ASSERT_TRUE(reader.read_frame(luma)) << reader.message();
+
+  EXPECT_EQ(luma, (Luma{255, 128, 0, 255}));
+  EXPECT_EQ(reader.read_frame(luma).error(), core::Error::kEndOfData);
+}
+
+TEST(Y4mReader, TellsHowMuchOfAFileIsRead) {
+  const support::TemporaryFolder folder;
+  const std::string path = folder.write("a.y4m", recording_text(kMono, 40'000, 8));  // 560 kB
+  Y4mReader reader;
+  Luma luma(8);
+  ASSERT_TRUE(reader.open(path));
+
+  for (int frame = 0; frame < 20'000; ++frame) {
+    ASSERT_TRUE(reader.read_frame(luma));
+  }
+  EXPECT_NEAR(reader.share_read(), 0.5, 0.13);  // it reads 64 KiB at a time
+  const std::string memory = recording_text(kMono, 1, 8);
+  ASSERT_TRUE(reader.open(source_of(memory), "m.y4m"));
+  EXPECT_LT(reader.share_read(), 0.0);
+}
+
 TEST(Y4mReader, AcceptsFrameParameters) {
   Y4mReader reader;
   Luma luma(2);

@@ -1,5 +1,6 @@
 #include "board/bench/output/output_paths.h"
 
+#include <array>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -67,12 +68,36 @@ TEST(OutputPaths, LetsDevicesBeShared) {
   EXPECT_EQ(find_output_conflict(options), "");
 }
 
+TEST(OutputPaths, LetsOneOutputHaveStandardOutputWhateverIsRead) {
+  const std::array inputs = {NamedPath{"the recording", "-"}};
+  const std::array one = {NamedPath{"--fields", "-"}};
+  const std::array two = {NamedPath{"--fields", "-"}, NamedPath{"--centers", "-"}};
+
+  EXPECT_EQ(find_clash(inputs, one), "");
+  EXPECT_EQ(find_clash(inputs, two),
+            "--centers: '-' is also --fields, expected a place of its own");
+}
+
+TEST(OutputPaths, KnowsNamesOfFiles) {
+  const support::TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path("a.png"));
+
+  EXPECT_TRUE(is_named_as_file("o.JPG"));
+  EXPECT_TRUE(is_named_as_file("b/o.y4m.xz"));
+  EXPECT_FALSE(is_named_as_file("run.1"));
+  EXPECT_FALSE(is_named_as_file("o.png/"));
+  EXPECT_FALSE(is_named_as_file("png"));
+  EXPECT_FALSE(is_named_as_file(folder.path("a.png")));  // a folder is there
+  EXPECT_EQ(ending_of("a.b/C.Y4M.XZ"), ".y4m.xz");
+}
+
 TEST(OutputPaths, RefusesACompressedVideo) {
   ReplayOptions options;
   options.overlay = "o.y4m.xz";
 
-  EXPECT_NE(find_output_conflict(options).find("expected a folder or a name that ends in .y4m"),
-            std::string::npos);
+  EXPECT_NE(
+      find_output_conflict(options).find("expected a folder for PNG pictures, or a name that"),
+      std::string::npos);
 }
 
 }  // namespace

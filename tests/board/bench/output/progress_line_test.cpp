@@ -47,6 +47,25 @@ TEST(ProgressLine, WritesNothingWhenItIsNotShown) {
   EXPECT_EQ(stream.text(), "");
 }
 
+TEST(ProgressLine, TellsTheTimeThatIsLeft) {
+  EXPECT_EQ(share_words(0.25, seconds(10)), "25 %, 0:30 left");
+  EXPECT_EQ(share_words(0.5, seconds(4000)), "50 %, 1:06:40 left");
+  EXPECT_EQ(share_words(1.0, seconds(10)), "100 %, 0:00 left");
+  EXPECT_EQ(share_words(-1.0, seconds(10)), "");
+  EXPECT_EQ(share_words(0.0, seconds(10)), "");
+  EXPECT_EQ(share_words(0.5, milliseconds(500)), "");
+  EXPECT_EQ(share_words(1e-9, seconds(10)), "0 %, 99:59:59 left");
+}
+
+TEST(ProgressLine, SaysTheShareBehindTheFields) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, 1, seconds(0), 0.0);
+  line.update(kStart + seconds(10), 500, seconds(10), 0.2);
+
+  EXPECT_EQ(stream.text(), "\r500 fields, 10.0 s of the recording, 20 %, 0:40 left");
+}
+
 TEST(ProgressLine, SaysWordsOfAnotherJobOverLongerOnes) {
   const Stream stream;
   {

@@ -1,0 +1,138 @@
+#include "board/bench/input/recording_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "drivers/ffmpeg/video_source.h"
+#include "drivers/files/byte_source.h"
+
+namespace tubesight::board {
+namespace {
+
+using core::Result;
+using core::Unexpected;
+
+/// Endings of videos, small letters.
+constexpr std::array<std::string_view, 20> kVideoEndings = {
+    ".y4m", ".y4m.xz", ".mp4",  ".m4v", ".mkv", ".mov", ".avi", ".webm", ".mpg",   ".mpeg",
+    ".ts",  ".mts",    ".m2ts", ".wmv", ".ogv", ".dv",  ".mxf", ".mjpg", ".mjpeg", ".flv"};
+
+bool is_y4m_name(std::string_view name) {
+  return name.ends_with(".y4m") || name.ends_with(".y4m.xz");
+}
+
+/// Whether the first bytes are those of a recording of ours, or cannot be read: then the reader
+/// says why.
+bool begins_as_y4m(const std::string& path) {
+  constexpr std::string_view kY4m = "YUV4MPEG2";
+  constexpr std::string_view kXz(
+      "\xFD"
+      "7zXZ\0",
+      6);
+  std::unique_ptr<drivers::ByteSource> source;
+  std::string ignored;
+  if (!drivers::open_file(path, source, ignored)) {
+    return true;
+  }
+  std::array<char, kY4m.size()> first{};
+  const auto count = source->read(std::as_writable_bytes(std::span(first)));
+  if (!count) {
+    return true;
+  }
+  const std::string_view begin(first.data(), *count);
+  return begin == kY4m || begin.starts_with(kXz);
+}
+
+Result<void> open_video(const std::string& path, std::unique_ptr<drivers::VideoSource>& source,
+                        std::string& message) {
+  std::string why;
+  auto opened = drivers::VideoSource::open(path, why);
+  if (!opened) {
+    message = path + ": cannot be read: " + why;
+    return Unexpected(opened.error());
+  }
+  source = std::move(*opened);
+  return {};
+}
+
+Result<void> open_standard_input(std::unique_ptr<drivers::ByteSource>& source,
+                                 std::string& message) {
+  std::string why;
+  const auto opened = drivers::open_file("/dev/stdin", source, why);
+  if (!opened) {
+    message = "standard input: cannot be read: " + why;
+  }
+  return opened;
+}
+
+}  // namespace
+
+RecordingKind kind_of_recording(const std::string& recording) {
+  if (recording == kStandardStream) {
+    return RecordingKind::kStandardInput;
+  }
+  std::error_code ignored;
+  if (is_y4m_name(recording) || !std::filesystem::is_regular_file(recording, ignored) ||
+      begins_as_y4m(recording)) {
+    return RecordingKind::kY4m;
+  }
+  return RecordingKind::kVideo;
+}
+
+bool is_named_as_recording(std::string_view file) {
+  std::string name(file);
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return std::any_of(kVideoEndings.begin(), kVideoEndings.end(),
+                     [&](std::string_view ending) { return name.ends_with(ending); });
+}
+
+Result<void> feed(drivers::ReplayFrameGrabber& grabber, const std::string& recording,
+                  std::string& message) {
+  switch (kind_of_recording(recording)) {
+    case RecordingKind::kY4m: return {};
+    case RecordingKind::kStandardInput: {
+      std::unique_ptr<drivers::ByteSource> source;
+      TUBESIGHT_TRY(open_standard_input(source, message));
+      grabber.read_from(std::move(source), false);
+      return {};
+    }
+    case RecordingKind::kVideo: break;
+  }
+  std::unique_ptr<drivers::VideoSource> source;
+  TUBESIGHT_TRY(open_video(recording, source, message));
+  grabber.read_from(std::unique_ptr<drivers::StampedSource>(std::move(source)));
+  return {};
+}
+
+Result<void> open_frames(drivers::Y4mReader& reader, const std::string& recording,
+                         std::string& message) {
+  if (kind_of_recording(recording) == RecordingKind::kVideo) {
+    return open_foreign_still(reader, recording, message);
+  }
+  const auto opened = reader.open(recording);
+  if (!opened) {
+    message = reader.message();
+  }
+  return opened;
+}
+
+Result<void> open_foreign_still(drivers::Y4mReader& reader, const std::string& still,
+                                std::string& message) {
+  std::unique_ptr<drivers::VideoSource> source;
+  TUBESIGHT_TRY(open_video(still, source, message));
+  const auto opened = reader.open(std::move(source), still);
+  if (!opened) {
+    message = reader.message();
+  }
+  return opened;
+}
+
+}  // namespace tubesight::board
