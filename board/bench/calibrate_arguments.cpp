@@ -31,7 +31,7 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
           "--picture", base.picture,
           "Draw what was found: of a camera views, residuals and how well the map is known; of a "
           "tool the docked picture; of a base or zones the sheet with the pairs and how well the "
-          "tool is known")
+          "tool is known; of links what they are worth over the sheet")
       ->option_text("PICTURE.png");
 }
 
@@ -164,9 +164,8 @@ const char* find_misplaced(const CalibrateArguments& arguments) {
   if (what != "base" && is_for_base(arguments.base)) {
     return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
   }
-  if ((what == "links" || what == "import" || what == "template") &&
-      !arguments.base.picture.empty()) {
-    return "--picture: of a camera, a tool, a base or zones, expected one of these";
+  if ((what == "import" || what == "template") && !arguments.base.picture.empty()) {
+    return "--picture: of a camera, a tool, a base, zones or links, expected one of these";
   }
   if (what != "template" && arguments.dots.given) {
     return "--rows, --columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, "
@@ -257,7 +256,8 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
     arguments.tool.picture = std::exchange(arguments.base.picture, {});
   }
   if (what == "links") {
-    return run_calibrate_links({arguments.file, arguments.arm, arguments.out});
+    return run_calibrate_links(
+        {arguments.file, arguments.arm, arguments.base.picture, arguments.out});
   }
   if (what == "zones") {
     return run_calibrate_zones(
