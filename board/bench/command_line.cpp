@@ -14,6 +14,7 @@
 #include "board/bench/campaign/campaign_options.h"
 #include "board/bench/devices/devices_command.h"
 #include "board/bench/look/look_command.h"
+#include "board/bench/number_range.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
 #include "board/bench/replay/replay_command.h"
@@ -137,7 +138,7 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   pose->add_option("--limit-mm", options.limit_mm,
                    "With --correct: the offset at which the insertion works; default 2.5")
       ->option_text("L")
-      ->check(CLI::Range(0.001, 100.0))
+      ->check(number_between(0.001, 100.0))
       ->needs(correct);
   add_choice(*pose, "--method",
              "How the pose is fitted, for comparison: rims (default), centers, "
@@ -182,7 +183,7 @@ CLI::App* add_budget(CLI::App& app, BudgetOptions& options) {
       ->add_option("--height-mm", options.height_mm,
                    "The sheet above the tool's tip, for vision; default 40")
       ->option_text("H")
-      ->check(CLI::Range(0.0, 500.0));
+      ->check(number_between(0.0, 500.0));
   budget->add_option("--plot", options.plot, "Draw the ways to calibrate a base")
       ->option_text("PLOT.png");
   return budget;
@@ -202,7 +203,7 @@ CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
       ->check(positive);
   campaign->add_option("--hours", options.hours, "Run for H hours")
       ->option_text("H")
-      ->check(CLI::Range(1e-6, 1e5));
+      ->check(number_between(1e-6, 1e5));
   campaign
       ->add_option("--seed", options.seed,
                    "Seed of all that is drawn; default 1, or that of --resume")
