@@ -67,7 +67,7 @@ bool read_whole(const std::string& path, std::string& text, std::vector<std::str
   drivers::DiskFiles files;
   std::string message;
   if (!files.read(path, text, message)) {
-    messages.push_back(path + ": " + message);
+    messages.push_back(path + ": cannot be read: " + message);
     return false;
   }
   return true;

@@ -10,7 +10,6 @@
 #include "drivers/camera_yaml/camera_yaml.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
-#include "drivers/settings/text_files.h"
 #include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
@@ -80,14 +79,10 @@ ExitStatus run_import_camera(const ImportCameraOptions& options) {
     return fail(clash, ExitStatus::kWrongInput);
   }
   std::string text;
-  std::string reason;
-  drivers::DiskFiles files;
-  if (!files.read(options.file, text, reason)) {
-    return fail(options.file + ": " + reason, ExitStatus::kWrongInput);
-  }
   drivers::CameraYaml yaml;
   drivers::Messages messages;
-  if (!read_camera_yaml(text, options.file, yaml, messages)) {
+  if (!read_whole(options.file, text, messages) ||
+      !read_camera_yaml(text, options.file, yaml, messages)) {
     tell(messages);
     return ExitStatus::kWrongInput;
   }
