@@ -1,9 +1,7 @@
 #include "board/bench/calibrate/calibration_file.h"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "board/bench/output/text_output.h"
+#include "core/math/covariance.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/text_files.h"
@@ -39,10 +38,6 @@ std::string now_in_words() {
   std::array<char, 32> text{};
   static_cast<void>(std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
   return text.data();
-}
-
-double sigma_of(const core::math::Matrix6d& covariance, int i) {
-  return std::sqrt(std::max(0.0, covariance(i, i)));
 }
 
 /// Whole, too, whatever happens: it is what a person goes back to.
@@ -73,11 +68,6 @@ bool read_whole(const std::string& path, std::string& text, std::vector<std::str
   return true;
 }
 
-double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
-  const double scale = sigma_of(covariance, i) * sigma_of(covariance, k);
-  return i == k ? 1.0 : scale > 0.0 ? covariance(i, k) / scale : 0.0;
-}
-
 std::string with_quality(const std::string& calibrated, const CalibrationQualityText& quality) {
   drivers::TomlWriter toml(drivers::TomlManner::kPlain);
   toml.table(quality.table);
@@ -86,11 +76,11 @@ std::string with_quality(const std::string& calibrated, const CalibrationQuality
   std::array<double, 6> sigma{};
   std::string correlation = "[";
   for (int i = 0; i < 6; ++i) {
-    sigma[static_cast<std::size_t>(i)] = sigma_of(quality.covariance, i);
+    sigma[static_cast<std::size_t>(i)] = core::math::sigma_of(quality.covariance, i);
     correlation += i > 0 ? ", [" : "[";
     for (int k = 0; k < 6; ++k) {
       drivers::print(correlation, k > 0 ? ", %.6f" : "%.6f",
-                     correlation_of(quality.covariance, i, k));
+                     core::math::correlation_of(quality.covariance, i, k));
     }
     correlation += ']';
   }

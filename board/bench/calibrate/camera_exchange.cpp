@@ -21,13 +21,6 @@ using core::calibration::ConversionResidual;
 constexpr double kCell_mm = 0.01;
 constexpr double kMost_px = 1.0;  // what tracking allows
 
-CameraValues values_of(const core::CameraSettings& camera) {
-  CameraValues values = CameraValues::Zero();
-  values.head<6>() << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
-      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-  return values;
-}
-
 /// Cells as large as a pixel, for a file without millimetres.
 core::CameraSettings plain_camera(const drivers::CameraYaml& yaml) {
   core::CameraSettings camera;
