@@ -53,6 +53,28 @@ TEST_F(CameraCalibration, OfAStageThatStandsAskewFreesItsAxis) {
   expect_true();
 }
 
+TEST_F(CameraCalibration, OfATemplateThatWasMovedAsideIsRefusedOrSaysWhatThatMayMean) {
+  const Eigen::Matrix3d rotation = turned(0.2, -0.2, 0.7);
+  const auto add = [&](double aside_mm) {
+    data_->dots.clear();
+    data_->views.clear();
+    add_view(rotation, {0.5, -0.3, 82.0}, true, 0.0);
+    add_view(rotation, Eigen::Vector3d(0.5 - aside_mm, -0.3, 82.0) + 30.0 * rotation.col(2), true,
+             30.0);
+  };
+  add(5.0);
+  EXPECT_NE(calibrate(), CalibrationRefusal::kNone);
+
+  // By half a millimetre it looks like a stage that leans by a degree, which would make EFL
+  // shorter.
+  noise_px_ = 0.005;
+  add(0.5);
+  ASSERT_EQ(calibrate(), CalibrationRefusal::kNone);
+  EXPECT_TRUE(outcome_.freed.stage_axis);
+  EXPECT_LT(state_->camera(0), truth_(0));
+  expect_true();
+}
+
 TEST_F(CameraCalibration, OfALeanThatNothingTellsFromTheCenterPromisesNoMore) {
   // Square to the template, without distortion, a stage that leans by 0.2 degrees looks like a
   // centre 1.8 px away, and the residuals stay what they are.
