@@ -8,6 +8,7 @@
 #include "board/bench/calibrate/camera_exchange.h"
 #include "board/bench/calibrate/links_command.h"
 #include "board/bench/calibrate/zones_command.h"
+#include "board/bench/number_range.h"
 
 namespace tubesight::board {
 namespace {
@@ -31,7 +32,7 @@ void add_base_options(CLI::App& calibrate, CalibrateBaseOptions& base) {
           "--picture", base.picture,
           "Draw what was found: of a camera views, residuals and how well the map is known; of a "
           "tool the docked picture; of a base or zones the sheet with the pairs and how well the "
-          "tool is known")
+          "tool is known; of links what they are worth over the sheet")
       ->option_text("PICTURE.png");
 }
 
@@ -75,7 +76,7 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
       .add_option("--dock-height-mm", tool.height_mm,
                   "Plane of the tube-ends above the docked tip; default 0")
       ->option_text("H")
-      ->check(CLI::Range(-500.0, 500.0))
+      ->check(number_between(-500.0, 500.0))
       ->needs(dock);
   calibrate
       .add_option("--dock-offset-mm", tool.offset_mm,
@@ -87,7 +88,7 @@ void add_tool_options(CLI::App& calibrate, CalibrateToolOptions& tool) {
       .add_option("--heading-deg", tool.heading_deg,
                   "The tool's heading on the sheet in the first docking, a choice; default 0")
       ->option_text("A")
-      ->check(CLI::Range(-360.0, 360.0))
+      ->check(number_between(-360.0, 360.0))
       ->needs(dock);
   calibrate
       .add_option("--start", tool.starts,
@@ -121,7 +122,7 @@ void add_template_options(CLI::App& calibrate, CalibrateTemplateOptions& dots) {
         ->each([&dots](const std::string&) { dots.given = true; });
   };
   const CLI::Range dot_range(2, 64);
-  const CLI::Range lengths(0.05, 1000.0);
+  const CLI::Validator lengths = number_between(0.05, 1000.0);
   add("--rows", dots.target.rows, "Of a template: lines of dots; default 10", "N")
       ->check(dot_range);
   add("--columns", dots.target.columns, "Of a template: dots in a line; default 10", "N")
@@ -164,9 +165,8 @@ const char* find_misplaced(const CalibrateArguments& arguments) {
   if (what != "base" && is_for_base(arguments.base)) {
     return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
   }
-  if ((what == "links" || what == "import" || what == "template") &&
-      !arguments.base.picture.empty()) {
-    return "--picture: of a camera, a tool, a base or zones, expected one of these";
+  if ((what == "import" || what == "template") && !arguments.base.picture.empty()) {
+    return "--picture: of a camera, a tool, a base, zones or links, expected one of these";
   }
   if (what != "template" && arguments.dots.given) {
     return "--rows, --columns, --spacing-mm, --row-spacing-mm, --dot-mm, --lattice, --dots, "
@@ -257,7 +257,8 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
     arguments.tool.picture = std::exchange(arguments.base.picture, {});
   }
   if (what == "links") {
-    return run_calibrate_links({arguments.file, arguments.arm, arguments.out});
+    return run_calibrate_links(
+        {arguments.file, arguments.arm, arguments.base.picture, arguments.out});
   }
   if (what == "zones") {
     return run_calibrate_zones(

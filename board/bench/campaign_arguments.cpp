@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "board/bench/number_range.h"
+
 namespace tubesight::board {
 
 CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
@@ -20,7 +22,7 @@ CLI::App* add_campaign(CLI::App& app, CampaignOptions& options) {
       ->check(positive);
   campaign->add_option("--hours", options.hours, "Run for H hours")
       ->option_text("H")
-      ->check(CLI::Range(1e-6, 1e5));
+      ->check(number_between(1e-6, 1e5));
   campaign
       ->add_option("--seed", options.seed,
                    "Seed of all that is drawn; default 1, or that of --resume")

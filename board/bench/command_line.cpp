@@ -19,6 +19,7 @@
 #include "board/bench/look/look_command.h"
 #include "board/bench/new_arguments.h"
 #include "board/bench/output/text_output.h"
+#include "board/bench/number_range.h"
 #include "board/bench/pose/pose_command.h"
 #include "board/bench/pose/pose_options.h"
 #include "board/bench/replay/replay_command.h"
@@ -45,10 +46,10 @@ void add_replay_choice(CLI::App& replay, ReplayOptions& options) {
       .add_option("--from", options.from_s,
                   "Begin at this time of the recording; [start] is taken to be clicked there")
       ->option_text("SECONDS")
-      ->check(CLI::Range(0.0, kLongest_s));
+      ->check(number_between(0.0, kLongest_s));
   replay.add_option("--to", options.to_s, "End at this time of the recording")
       ->option_text("SECONDS")
-      ->check(CLI::Range(0.0, kLongest_s));
+      ->check(number_between(0.0, kLongest_s));
   replay
       .add_option("--every", options.every,
                   "Every N-th frame alone; of interlaced ones the earlier field")
@@ -181,7 +182,7 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
   pose->add_option("--limit-mm", options.limit_mm,
                    "With --correct: the offset at which the insertion works; default 2.5")
       ->option_text("L")
-      ->check(CLI::Range(0.001, 100.0))
+      ->check(number_between(0.001, 100.0))
       ->needs(correct);
   add_choice(*pose, "--method",
              "How the pose is fitted, for comparison: rims (default), centers, "
@@ -226,7 +227,7 @@ CLI::App* add_budget(CLI::App& app, BudgetOptions& options) {
       ->add_option("--height-mm", options.height_mm,
                    "The sheet above the tool's tip, for vision; default 40")
       ->option_text("H")
-      ->check(CLI::Range(0.0, 500.0));
+      ->check(number_between(0.0, 500.0));
   budget->add_option("--plot", options.plot, "Draw the ways to calibrate a base")
       ->option_text("PLOT.png");
   return budget;

@@ -27,6 +27,8 @@ constexpr double kScaleAssumed = 0.02;
 constexpr double kCenterAssumed = 0.025;  // of the picture's width
 constexpr double kMostOfFocalOneView = 0.1;
 
+constexpr double kSameAngle = 0.9961946980917455;  // the cosine of 5 degrees
+
 // Errors that hang together keep to no normal distribution: twice the standard deviation counts.
 constexpr double kPatternDoubt = 2.0;
 constexpr double kMuchPattern = 4.0;  // growth of the covariance that is the reason of a refusal
@@ -83,6 +85,25 @@ FitOutcome fit_in_steps(const FitOptions& options, CalibrationData& data, Calibr
   less.center_and_scale = false;
   static_cast<void>(fit_camera(less, data, state, scratch));
   return fit_camera(options, data, state, scratch);
+}
+
+/// Whether free views of a plane all see it under one angle, however it is turned in itself or
+/// shifted. Such planes share their vanishing line, and what tells EFL of a view lies on it: all of
+/// them tell what one does.
+bool see_one_angle(const CalibrationData& data, const CalibrationState& state) {
+  for (std::int32_t i = 0; i < data.views.size(); ++i) {
+    if (is_solid(data, data.views[i])) {
+      return false;
+    }
+    for (std::int32_t k = 0; k < i; ++k) {
+      const double cosine =
+          state.poses[i].R_camera_target.col(2).dot(state.poses[k].R_camera_target.col(2));
+      if (cosine < kSameAngle) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 /// Whether the camera can be that of the data sheet, and any that core/camera takes.
@@ -205,7 +226,8 @@ CalibrationOutcome calibrate_camera(CalibrationData& data, CalibrationState& sta
   if (outcome.left_out > kMostLeftOut * data.dots.size()) {
     return refuse(CalibrationRefusal::kManyOutliers);
   }
-  if (!outcome.fit.determined || !(state.camera(0) > 0.0)) {
+  if (!outcome.fit.determined || !(state.camera(0) > 0.0) ||
+      (!staged && see_one_angle(data, state))) {
     return refuse(CalibrationRefusal::kUndetermined);
   }
   if (!outcome.fit.converged) {

@@ -110,14 +110,9 @@ class LinkFit {
     return std::sqrt(std::max(0.0, column[static_cast<std::size_t>(kPoseNumbers + number)]));
   }
 
-  /// Sum of squares of the misses of some pairs' places.
-  [[nodiscard]] double squares(std::span<const std::int32_t> chosen, const State& state) const {
-    const SerialArm arm = changed(given_, state.numbers);
-    double sum = 0.0;
-    for (const std::int32_t i : chosen) {
-      sum += place_miss(corrected(i, arm), state.pose).squaredNorm();
-    }
-    return sum;
+  /// How far a pair's place is from where this state has it.
+  [[nodiscard]] Eigen::Vector3d miss(std::int32_t i, const State& state) const {
+    return place_miss(corrected(i, changed(given_, state.numbers)), state.pose);
   }
 
  private:
@@ -230,6 +225,31 @@ BasePose upright(const BasePose& pose) {
   return {pose.T_sheet_base, math::exp_rotation({0.0, 0.0, angle})};
 }
 
+/// Every other pair fitted, without links and with them, foretells the rest. False: a half does not
+/// tell the base.
+bool foretell_halves(LinkFit& fit, std::span<const std::int32_t> good, const BasePose& start,
+                     LinkMisses& misses) {
+  std::array<StaticVector<std::int32_t, kMaxPairs>, 2> halves;
+  for (std::size_t k = 0; k < good.size(); ++k) {
+    static_cast<void>(halves[k % 2].try_push_back(good[k]));
+    static_cast<void>(misses.try_push_back({good[k]}));
+  }
+  for (std::size_t half = 0; half < halves.size(); ++half) {
+    State alone{upright(start), {}};
+    State with_links = alone;
+    if (!fit.run(halves[half].view(), false, alone) ||
+        !fit.run(halves[half].view(), true, with_links)) {
+      misses.clear();
+      return false;
+    }
+    for (std::int32_t k = 1 - static_cast<std::int32_t>(half); k < misses.size(); k += 2) {
+      misses[k].base_alone_mm = fit.miss(misses[k].pair, alone);
+      misses[k].with_links_mm = fit.miss(misses[k].pair, with_links);
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 void calibrate_links(const SerialArm& given, const BasePairs& pairs, const PairJoints& joints,
@@ -237,28 +257,24 @@ void calibrate_links(const SerialArm& given, const BasePairs& pairs, const PairJ
                      const LinkExpectation& expectation, LinkWorkspace& workspace,
                      LinkCalibration& result) {
   result = {};
+  workspace.misses.clear();
   result.refusal = look(given, pairs, joints, good, result);
   if (result.refusal != LinkRefusal::kNone) {
     return;
   }
   LinkFit fit(given, pairs, joints, expectation, workspace.normal);
-  std::array<StaticVector<std::int32_t, kMaxPairs>, 2> halves;
-  for (std::size_t k = 0; k < good.size(); ++k) {
-    static_cast<void>(halves[k % 2].try_push_back(good[k]));
+  if (!foretell_halves(fit, good, start, workspace.misses)) {
+    result.refusal = LinkRefusal::kTooFew;
+    return;
   }
-  std::array<double, 2> squares{};
-  for (std::size_t half = 0; half < 2; ++half) {
-    for (const bool links : {false, true}) {
-      State state{upright(start), {}};
-      if (!fit.run(halves[half].view(), links, state)) {
-        result.refusal = LinkRefusal::kTooFew;
-        return;
-      }
-      squares[links ? 1 : 0] += fit.squares(halves[1 - half].view(), state);
-    }
+  double alone = 0.0;
+  double with_links = 0.0;
+  for (const LinkMiss& miss : workspace.misses) {
+    alone += miss.base_alone_mm.squaredNorm();
+    with_links += miss.with_links_mm.squaredNorm();
   }
-  result.base_alone_mm = std::sqrt(squares[0] / static_cast<double>(good.size()));
-  result.with_links_mm = std::sqrt(squares[1] / static_cast<double>(good.size()));
+  result.base_alone_mm = std::sqrt(alone / workspace.misses.size());
+  result.with_links_mm = std::sqrt(with_links / workspace.misses.size());
   State state{upright(start), {}};
   if (result.base_alone_mm < kNothing_mm || result.with_links_mm > kBetter * result.base_alone_mm ||
       !fit.run(good, true, state)) {

@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <span>
 
+#include <Eigen/Core>
+
+#include "core/base/static_vector.h"
 #include "core/calibration/base_pairs.h"
 #include "core/calibration/dense_normal.h"
 #include "core/kinematics/serial_arm.h"
@@ -54,9 +57,22 @@ struct LinkCalibration {
   double with_links_mm = 0.0;
 };
 
+/// How far one pair's place, by vision, is from where the other half of the pairs foretells it,
+/// sheet frame.
+struct LinkMiss {
+  std::int32_t pair = 0;  ///< index into the pairs
+  Eigen::Vector3d base_alone_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d with_links_mm = Eigen::Vector3d::Zero();
+};
+
+using LinkMisses = StaticVector<LinkMiss, kMaxPairs>;
+
 /// Room for the fit: 0.7 MB.
 struct LinkWorkspace {
   DenseNormal normal;
+  /// Of the last calibration: a row for each pair of `good`, where the halves were fitted (kNone
+  /// and kNoBetter), and none otherwise.
+  LinkMisses misses;
 };
 
 /// Base and all numbers of an arm together by maximum a posteriori likelihood, from pairs whose

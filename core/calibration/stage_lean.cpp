@@ -15,6 +15,19 @@ math::Matrix6d all_in_the_center(const Sensor& sensor, const CameraValues& camer
   return change.cwiseAbs2().asDiagonal();
 }
 
+/// What makes an axis lean is a stage that does, or a template that was moved aside between the
+/// heights. The latter came nearer by all of the height read, not by its cosine, and EFL is as much
+/// longer.
+math::Matrix6d moved_aside(const CameraValues& camera, double cosine) {
+  math::Matrix6d doubt = math::Matrix6d::Zero();
+  doubt(0, 0) = std::pow(camera(0) * (1.0 - cosine), 2);
+  return doubt;
+}
+
+// No stage leans by more, ten times what is expected of one: then the template moved, and the dots
+// are left where no stage explains them.
+constexpr double kMostLean_rad = 10.0 * kStageLean_rad;
+
 }  // namespace
 
 math::Matrix6d settle_stage_axis(CalibrationData& data, CalibrationState& state,
@@ -35,10 +48,11 @@ math::Matrix6d settle_stage_axis(CalibrationData& data, CalibrationState& state,
                  std::exp(-0.5 * falls)
            : 1.0;
   constexpr double kLeastFall = 9.0;  // by chance in one of a hundred
-  if (good && for_square < 1.0 && falls > kLeastFall) {
+  const double cosine = state.stage_axis.dot(state.stage.R_camera_target.col(2));
+  if (good && for_square < 1.0 && falls > kLeastFall && cosine > std::cos(kMostLean_rad)) {
     outcome.fit = fit;
     outcome.freed = options;
-    return math::Matrix6d::Zero();
+    return moved_aside(state.camera, cosine);
   }
   state = held;
   outcome.fit = fit_camera(outcome.freed, data, state, scratch);  // the residuals again

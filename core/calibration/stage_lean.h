@@ -11,8 +11,9 @@ namespace tubesight::core::calibration {
 inline constexpr double kStageLean_rad = 0.0035;
 
 /// Decides what a stage's axis is: freed in `outcome` where the views say that it leans; else the
-/// template's normal. Returns what is to be added to the camera's covariance then: where the views
-/// would not show a lean, it may be there all the same.
+/// template's normal. Returns what is to be added to the camera's covariance: where the views would
+/// not show a lean, it may be there all the same; where they do, a template that was moved aside
+/// makes them look so, too. A lean that no stage has frees nothing.
 ///
 /// Seen square to the template a leaning axis looks like another centre of the picture. A lens
 /// with little distortion does not tell the two apart: residuals stay small, and the centre is

@@ -136,7 +136,9 @@ OrderRefusal order_on_target(const detection::FoundLattice& found, const Target&
     }
     for (const auto& element : found.elements) {
       const LatticeStep place = at(element, column, row);
-      if (!within(place, *origin, size)) {
+      // Without contrast there is no centroid: the surroundings by which pixels are weighed leave
+      // the picture, and what stands there is the middle of the edge's ellipse.
+      if (!within(place, *origin, size) || !(element.contrast > 0.0)) {
         continue;
       }
       SeenDot dot;

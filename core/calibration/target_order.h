@@ -42,7 +42,8 @@ enum class OrderRefusal : std::uint8_t {
 /// pictures that show the template in the same attitude. Of a staggered one either the odd or the
 /// even lines may be those that are shifted: a lattice seen tells which. All lines and all dots of
 /// a line must show somewhere, as nothing else tells where the template ends; single ones may be
-/// missing.
+/// missing. One whose surroundings the picture's edge cuts off counts for that and is not appended:
+/// its centroid is not known.
 [[nodiscard]] OrderRefusal order_on_target(const detection::FoundLattice& found,
                                            const Target& target,
                                            StaticVector<SeenDot, kMaxDots>& dots);

@@ -39,13 +39,20 @@ Eigen::Matrix3d complete(double r1, double r2, double r4, double r5) {
   return rotation;
 }
 
+/// A dot's place on the template, and its image on the sensor from the picture's middle.
+struct Origin {
+  Eigen::Vector3d place_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector2d image_mm = Eigen::Vector2d::Zero();
+};
+
 /// The dot that is farthest from the axis in v: Ty divides all, so the origin goes there.
-std::int32_t farthest_dot(const CalibrationData& data, const CalibrationView& view) {
-  std::int32_t farthest = view.first;
+Origin farthest_dot(const CalibrationData& data, const CalibrationView& view) {
+  Origin farthest{data.dots[view.first].place_mm,
+                  on_sensor(data.sensor, data.dots[view.first].seen_px)};
   for (std::int32_t i = view.first; i < view.first + view.count; ++i) {
-    if (std::abs(on_sensor(data.sensor, data.dots[i].seen_px).y()) >
-        std::abs(on_sensor(data.sensor, data.dots[farthest].seen_px).y())) {
-      farthest = i;
+    const Eigen::Vector2d image_mm = on_sensor(data.sensor, data.dots[i].seen_px);
+    if (std::abs(image_mm.y()) > std::abs(farthest.image_mm.y())) {
+      farthest = {data.dots[i].place_mm, image_mm};
     }
   }
   return farthest;
@@ -75,56 +82,62 @@ bool solve_alignment(const CalibrationData& data, const CalibrationView& view,
 
 /// Of dots that do not lie in a plane, all of the rotation is linear [Tsai1987 sec. II-B]:
 /// d_x (r4 X + r5 Y + r6 Z + Ty) = d_y (r1 X + r2 Y + r3 Z + Tx), over Ty.
-bool align_solid(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
+bool align_solid(const CalibrationData& data, const CalibrationView& view, const Origin& origin,
+                 Alignment& alignment) {
   using Row = Eigen::Matrix<double, 7, 1>;
-  const std::int32_t farthest = farthest_dot(data, view);
-  const Eigen::Vector3d origin = data.dots[farthest].place_mm;
   const auto row_of = [](const Eigen::Vector3d& w, const Eigen::Vector2d& d) {
     Row row;
     row << d.y() * w, d.y(), -d.x() * w;
     return row;
   };
   Row a;
-  if (!solve_alignment<7>(data, view, origin, row_of, a)) {
+  if (!solve_alignment<7>(data, view, origin.place_mm, row_of, a)) {
     return false;
   }
   const double scale = a.head<3>().squaredNorm() + a.tail<3>().squaredNorm();  // 2 / Ty^2
-  const double ty = std::copysign(std::sqrt(2.0 / scale),
-                                  on_sensor(data.sensor, data.dots[farthest].seen_px).y());
+  const double ty = std::copysign(std::sqrt(2.0 / scale), origin.image_mm.y());
   const Eigen::Vector3d x = (a.head<3>() * ty).normalized();
   Eigen::Vector3d y = a.tail<3>() * ty;
   y = (y - y.dot(x) * x).normalized();
   alignment.flat = false;
   alignment.rotation << x.transpose(), y.transpose(), x.cross(y).transpose();
-  alignment.shift = Eigen::Vector2d(a(3) * ty, ty) - (alignment.rotation * origin).head<2>();
-  return alignment.rotation.allFinite();
+  alignment.shift << a(3) * ty, ty;
+  return true;
 }
 
-bool align(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
-  if (is_solid(data, view)) {
-    return align_solid(data, view, alignment);
-  }
+/// Of a plane, of whose rotation the upper left 2 x 2 part is linear, over Ty; its sense is open.
+bool align_flat(const CalibrationData& data, const CalibrationView& view, const Origin& origin,
+                Alignment& alignment) {
   using Row = Eigen::Matrix<double, 5, 1>;
-  const std::int32_t farthest = farthest_dot(data, view);
-  const Eigen::Vector3d origin = data.dots[farthest].place_mm;
   const auto row_of = [](const Eigen::Vector3d& w, const Eigen::Vector2d& d) {
     Row row;
     row << d.y() * w.x(), d.y() * w.y(), d.y(), -d.x() * w.x(), -d.x() * w.y();
     return row;
   };
   Row a;  // r1/Ty, r2/Ty, Tx/Ty, r4/Ty, r5/Ty
-  if (!solve_alignment<5>(data, view, origin, row_of, a)) {
+  if (!solve_alignment<5>(data, view, origin.place_mm, row_of, a)) {
     return false;
   }
   const double sum = a(0) * a(0) + a(1) * a(1) + a(3) * a(3) + a(4) * a(4);
   const double cross = a(0) * a(4) - a(3) * a(1);
   const double ty2 = 2.0 / (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * cross * cross)));
   // The sense in which the images lie on the side of the axis that their places lie on.
-  const Eigen::Vector2d d = on_sensor(data.sensor, data.dots[farthest].seen_px);
-  const double ty = std::copysign(std::sqrt(ty2), d.y());
+  const double ty = std::copysign(std::sqrt(ty2), origin.image_mm.y());
   alignment.rotation = complete(a(0) * ty, a(1) * ty, a(3) * ty, a(4) * ty);
-  alignment.shift = Eigen::Vector2d(a(2) * ty, ty) - (alignment.rotation * origin).head<2>();
-  return alignment.rotation.allFinite() && cross > 0.0;
+  alignment.shift << a(2) * ty, ty;
+  return cross > 0.0;
+}
+
+/// All that the radial alignment tells of a view. False: its dots do not tell it.
+bool align(const CalibrationData& data, const CalibrationView& view, Alignment& alignment) {
+  const Origin origin = farthest_dot(data, view);
+  if (!(is_solid(data, view) ? align_solid(data, view, origin, alignment)
+                             : align_flat(data, view, origin, alignment))) {
+    return false;
+  }
+  // From the farthest dot's place in the camera to that of the template's own origin.
+  alignment.shift -= (alignment.rotation * origin.place_mm).head<2>();
+  return alignment.rotation.allFinite();
 }
 
 /// Sums of the linear equations f p - d Tz = d (w + height), of EFL f and the distance Tz of the

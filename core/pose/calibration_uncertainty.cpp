@@ -4,24 +4,13 @@
 
 #include "core/base/trigonometry.h"
 #include "core/camera/camera_setup.h"
+#include "core/math/covariance.h"
 #include "core/math/rotation.h"
 
 namespace tubesight::core::pose {
 namespace {
 
 using SheetTool = Transform<frames::Sheet, frames::Tool>;
-
-math::Matrix6d covariance_of(const std::array<double, 6>& sigma,
-                             const math::Matrix6d& correlation) {
-  math::Matrix6d covariance;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) {
-      covariance(i, j) = correlation(i, j) * sigma[static_cast<std::size_t>(i)] *
-                         sigma[static_cast<std::size_t>(j)];
-    }
-  }
-  return covariance;
-}
 
 math::Matrix6d carried(const math::Matrix6d& J, const math::Matrix6d& covariance) {
   const math::Matrix6d half = J.lazyProduct(covariance);
@@ -111,11 +100,11 @@ Result<math::Matrix6d> calibration_covariance(const PoseModel& model, const pict
   if (!by_camera) {
     return Unexpected(by_camera.error());
   }
-  const math::Matrix6d camera =
-      carried(*by_camera, covariance_of(uncertainty.camera_sigma, uncertainty.camera_correlation));
+  const math::Matrix6d camera = carried(
+      *by_camera, math::covariance_of(uncertainty.camera_sigma, uncertainty.camera_correlation));
   const math::Matrix6d by_tool = tool_sensitivity(model, estimate);
   const math::Matrix6d tool =
-      carried(by_tool, covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation));
+      carried(by_tool, math::covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation));
   // With e_f the EFL's error and e_v the tool's: J_f E[e_f e_v^T] J_v^T, and its transpose.
   math::Vector6d together;
   for (std::size_t i = 0; i < uncertainty.tool_sigma.size(); ++i) {

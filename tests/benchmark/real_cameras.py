@@ -91,7 +91,7 @@ def tell(name, rms, found, why, library):
     line += "".join(f", {key} {found[key][0]:.1f} +- {found[key][1]:.1f}" for key in ("c_u", "c_v")
                     if key in found)
     print(line + (f"; {why.split(': ', 1)[-1][:60]}..." if why else ""), flush=True)
-    return library is None or rms <= library
+    return library is None or round(rms, 3) <= library  # which is known to three digits
 
 
 def main(program, folder):

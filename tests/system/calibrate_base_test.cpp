@@ -142,6 +142,8 @@ TEST(CalibrateBase, RefusesABadRowAndSaysWhatAndWhere) {
       Case{",1\n", ",yes\n", "pairs.csv:2: use: 'yes'"},
       Case{",0.0400,1\n", ",-0.0400,1\n", "pairs.csv:2: sigma_z_mm: "},
       Case{",0,0,", ",,0,", "pairs.csv:2: robot_beta_deg: ''"},
+      Case{",0.0400,1\n", ",0.0400,1\nq,1,2,3,0,0,0,4,5,501,0,0,0,0.1,0.1,0.1,1\n",
+           "pairs.csv:3: tool_z_mm: '501', expected the tool below the sheet"},
       Case{"name,robot_x_mm", "robot_x_mm,name", "pairs.csv:1: "},
   };
   for (const Case& bad : cases) {

@@ -1,9 +1,7 @@
 // `tubesight calibrate camera` with its picture and what it says of itself; cameras exchanged with
 // OpenCV and ROS.
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,54 +9,22 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/replaced_text.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/system/program.h"
+#include "tests/system/calibrate_views.h"
 
 namespace tubesight::tests {
 namespace {
 
-using support::TemporaryFolder;
-
-/// Ten lines of ten points seen by a camera of EFL 5 mm and k 0.01 per mm2, in cells of 0.01 mm.
-/// Each is off by up to `off_px`, as by chance.
-void write_points(const TemporaryFolder& folder, const std::string& name, double away,
-                  double off_px = 0.01) {
-  std::string text = "x_mm,y_mm,u_px,v_px\n";
-  for (int i = 0; i < 100; ++i) {
-    const double x = 8.0 * (i % 10);
-    const double y = 8.0 * (i / 10);
-    const double z = away + 0.005 * (y - 36.0);
-    const double ideal_x = 5.0 * (x - 36.0) / z;
-    const double ideal_y = 5.0 * (y - 36.0) / z;
-    double factor = 1.0;
-    for (int k = 0; k < 60; ++k) {
-      const double r2 = (ideal_x * ideal_x + ideal_y * ideal_y) / (factor * factor);
-      factor = 1.0 + 0.01 * r2;
-    }
-    const double u = 310.0 + 100.0 * ideal_x / factor + off_px * std::sin(37.0 * i * i + away);
-    const double v = 245.0 + 100.0 * ideal_y / factor + off_px * std::cos(53.0 * i * i + away);
-    text += std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(u) + "," +
-            std::to_string(v) + "\n";
-  }
-  folder.write(name, text);
-}
-
 void write_target(const TemporaryFolder& folder) {
-  write_points(folder, "near.csv", 82.0);
-  write_points(folder, "far.csv", 112.0);
-  folder.write("t.toml",
-               "[camera]\nwidth_px = 640\nheight_px = 480\nscan = \"progressive\"\n"
-               "cell_width_mm = 0.01\ncell_height_mm = 0.01\nsensor_columns = 640\n"
-               "frame_columns = 640\n[camera_quality]\nserial = \"4711\"\n[target]\nrows = 10\n"
-               "columns = 10\nspacing_mm = 8.0\ndot_mm = 0\ndots = \"bright\"\n[[view]]\n"
-               "points = \"near.csv\"\nheight_mm = 0\n[[view]]\npoints = \"far.csv\"\n"
-               "height_mm = 30\n");
-}
-
-double number_of(const std::string& settings, const std::string& key) {
-  const std::size_t at = settings.find(key + " = ");
-  EXPECT_NE(at, std::string::npos) << key;
-  return at == std::string::npos ? 0.0 : std::atof(settings.c_str() + at + key.size() + 3);
+  ComputedPoints points;
+  points.off_px = 0.01;
+  folder.write("near.csv", points.text());
+  points.away = 112.0;
+  folder.write("far.csv", points.text());
+  folder.write("t.toml", kPlainCamera +
+                             "[camera_quality]\nserial = \"4711\"\n[target]\nrows = 10\n"
+                             "columns = 10\nspacing_mm = 8.0\ndot_mm = 0\ndots = \"bright\"\n" +
+                             view_of("points = \"near.csv\"", "0") +
+                             view_of("points = \"far.csv\"", "30"));
 }
 
 TEST(CalibrateCamera, SaysHowFarItsHalvesAgreeAndWhatThatIsOfTheTip) {
@@ -142,9 +108,10 @@ TEST(CalibrateCamera, DrawsWhatItFoundAlsoOfWhatIsRefused) {
   run = run_tubesight(folder, {"calibrate", "camera", "t.toml", "--picture", "near.csv"});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err, "--picture: 'near.csv' is also a points file, expected a place of its own\n");
-  run = run_tubesight(folder, {"calibrate", "links", "near.csv", "--picture", "x.png"});
+  run = run_tubesight(folder, {"calibrate", "import", "t.toml", "--picture", "x.png"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err, "--picture: of a camera, a tool, a base or zones, expected one of these\n");
+  EXPECT_EQ(run.err,
+            "--picture: of a camera, a tool, a base, zones or links, expected one of these\n");
 }
 
 TEST(CalibrateCamera, GoesToOpencvAndRosAndComesBack) {

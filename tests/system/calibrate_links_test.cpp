@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -84,9 +85,9 @@ std::string pairs_text(int count, const SerialArm& truth) {
   return text;
 }
 
-ProgramRun run_links(const TemporaryFolder& folder) {
-  return run_tubesight(
-      folder, {"calibrate", "links", "pairs.csv", "--arm", "arm.toml", "--out", "found.toml"});
+ProgramRun run_links(const TemporaryFolder& folder, const std::string& picture = "links.png") {
+  return run_tubesight(folder, {"calibrate", "links", "pairs.csv", "--arm", "arm.toml", "--out",
+                                "found.toml", "--picture", picture});
 }
 
 TEST(CalibrateLinks, FindsWhatIsNotAsOnPaper) {
@@ -107,6 +108,7 @@ TEST(CalibrateLinks, FindsWhatIsNotAsOnPaper) {
   EXPECT_NEAR(length, 1000.8, 0.35);
   EXPECT_NE(found.find("[base]\nposition_mm = ["), std::string::npos);
   EXPECT_EQ(folder.read("found.toml.bak"), "what stood here");
+  EXPECT_EQ(folder.read("links.png").substr(1, 3), "PNG");
   // It is read again as an arm.
   folder.write("arm.toml", found);
   const ProgramRun again = run_links(folder);
@@ -115,7 +117,7 @@ TEST(CalibrateLinks, FindsWhatIsNotAsOnPaper) {
 
 TEST(CalibrateLinks, RefusesPairsThatDoNotCarryThem) {
   const auto refused = [](const std::string& arm, const std::string& pairs, int status,
-                          const std::string& why) {
+                          const std::string& why, bool drawn = false) {
     const TemporaryFolder folder;
     folder.write("arm.toml", arm);
     folder.write("pairs.csv", pairs);
@@ -123,10 +125,12 @@ TEST(CalibrateLinks, RefusesPairsThatDoNotCarryThem) {
     EXPECT_EQ(run.status, status) << why;
     EXPECT_NE(run.err.find(why), std::string::npos) << run.err;
     EXPECT_EQ(run.err.find('\n'), run.err.size() - 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder.path("found.toml"))) << why;
+    EXPECT_EQ(std::filesystem::exists(folder.path("links.png")), drawn) << why;
   };
   refused(kArm, pairs_text(10, true_arm()), 1, "pairs.csv: no links: 10 pairs are in use");
   refused(kArm, pairs_text(30, core::kinematics::cobra_arm()), 1,
-          "pairs.csv: no links: half of the pairs foretell the others");
+          "pairs.csv: no links: half of the pairs foretell the others", true);
   refused(support::replaced(kArm, "[940, 0, 0, 0,", "[640, 0, 0, 0,"), pairs_text(30, true_arm()),
           1, "pairs.csv: no links: at the joint angles of pair p");
   refused(support::replaced(kArm, ", [0, 150, 0, 90, -270, 270]", ""), pairs_text(30, true_arm()),
@@ -135,6 +139,16 @@ TEST(CalibrateLinks, RefusesPairsThatDoNotCarryThem) {
           "robot.links: missing");
   refused(kArm, support::replaced(pairs_text(30, true_arm()), "joint_2_deg", "joint_x_deg"), 2,
           "1 columns joint_1_deg");
+}
+
+TEST(CalibrateLinks, DrawsOverNothingThatIsRead) {
+  const TemporaryFolder folder;
+  folder.write("arm.toml", kArm);
+  folder.write("pairs.csv", "kept");
+  const ProgramRun run = run_links(folder, "pairs.csv");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "--picture: 'pairs.csv' is also the pairs, expected a place of its own\n");
+  EXPECT_EQ(folder.read("pairs.csv"), "kept");
 }
 
 }  // namespace

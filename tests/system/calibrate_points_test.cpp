@@ -2,7 +2,6 @@
 // template, and for a type of camera.
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,50 +13,13 @@
 namespace tubesight::tests {
 namespace {
 
-/// A camera of EFL 5 mm and cells of 0.01 mm, and 10 by 10 points 8 mm apart.
+/// A plain camera that is known by its number, and 10 by 10 points 8 mm apart.
 std::string target_of(const std::string& more, double dot_mm = 0.0) {
-  return "[camera]\nwidth_px = 640\nheight_px = 480\nscan = \"progressive\"\n"
-         "cell_width_mm = 0.01\ncell_height_mm = 0.01\nsensor_columns = 640\n"
-         "frame_columns = 640\n[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n"
+  return kPlainCamera +
+         "[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n"
          "[target]\nrows = 10\ncolumns = 10\nspacing_mm = 8.0\ndot_mm = " +
          std::to_string(dot_mm) + "\n" + more;
 }
-
-/// Points as the camera sees them from `away`, leaning by the sine `lean`; `depth` out of the plane
-/// in steps and `wave` along it, mm.
-struct Points {
-  double away = 82.0;
-  double lean = 0.005;
-  double depth = 0.0;
-  double wave = 0.0;
-  bool exchanged = false;
-  bool half = false;  ///< those of the left half alone
-
-  [[nodiscard]] std::string text() const {
-    std::string rows = depth > 0.0 ? "x_mm,y_mm,z_mm,u_px,v_px\n" : "x_mm,y_mm,u_px,v_px\n";
-    for (int i = 0; i < 100; ++i) {
-      const double x = 8.0 * (i % 10);
-      const double y = 8.0 * (i / 10);
-      const double z = depth * (i * 7 % 3);
-      if (half && i % 10 >= 5) {
-        continue;
-      }
-      const double cosine = std::sqrt(1.0 - lean * lean);
-      const double far = away + lean * (y - 36.0) + cosine * z;
-      const double ideal_x = 5.0 * (x + wave * std::sin(x / 12.0) - 36.0) / far;
-      const double ideal_y = 5.0 * (cosine * (y - 36.0) - lean * z) / far;
-      double factor = 1.0;
-      for (int k = 0; k < 60; ++k) {
-        factor = 1.0 + 0.01 * (ideal_x * ideal_x + ideal_y * ideal_y) / (factor * factor);
-      }
-      rows += std::to_string(exchanged ? y : x) + "," + std::to_string(exchanged ? x : y) + "," +
-              (depth > 0.0 ? std::to_string(z) + "," : "") +
-              std::to_string(310.0 + 100.0 * ideal_x / factor) + "," +
-              std::to_string(245.0 + 100.0 * ideal_y / factor) + "\n";
-    }
-    return rows;
-  }
-};
 
 double focal_of(const TemporaryFolder& folder, const std::string& name) {
   return number_of(folder.read(name), "focal_length_mm");
@@ -86,7 +48,7 @@ TEST(CalibratePoints, WrittenFromPicturesGiveTheSameCamera) {
 
 TEST(CalibratePoints, OutOfAPlaneTellAllInOneView) {
   const TemporaryFolder folder;
-  Points points;
+  ComputedPoints points;
   points.depth = 10.0;
   folder.write("p.csv", points.text());
 
@@ -109,12 +71,12 @@ TEST(CalibratePoints, ThatAreWrongAreNamedByTheirLine) {
 
 TEST(CalibratePoints, CannotBeWrittenOverWhatIsRead) {
   const TemporaryFolder folder;
-  folder.write("view-0.csv", Points().text());
+  folder.write("view-0.csv", ComputedPoints().text());
   const ProgramRun run =
       calibrate(folder, target_of(view_of("points = \"view-0.csv\"")), {"--write-points", "."});
   EXPECT_EQ(run.status, 2);
   EXPECT_NE(run.err.find("is also a points file"), std::string::npos) << run.err;
-  EXPECT_EQ(folder.read("view-0.csv"), Points().text());
+  EXPECT_EQ(folder.read("view-0.csv"), ComputedPoints().text());
 }
 
 TEST(CalibratePoints, AreOfACameraAlone) {
@@ -128,17 +90,17 @@ TEST(CalibratePoints, AreOfACameraAlone) {
 
 TEST(CalibrateRefusals, EachWithItsReasonAndWithoutSettings) {
   const TemporaryFolder folder;
-  Points far;
+  ComputedPoints far;
   far.away = 112.0;
-  Points tilted;
+  ComputedPoints tilted;
   tilted.lean = 0.5;
-  Points waves;
+  ComputedPoints waves;
   waves.wave = 0.1;
-  Points far_waves = waves;
+  ComputedPoints far_waves = waves;
   far_waves.away = 112.0;
-  Points exchanged;
+  ComputedPoints exchanged;
   exchanged.exchanged = true;
-  folder.write("near.csv", Points().text());
+  folder.write("near.csv", ComputedPoints().text());
   folder.write("far.csv", far.text());
   folder.write("tilted.csv", tilted.text());
   folder.write("waves.csv", waves.text());
@@ -168,7 +130,7 @@ TEST(CalibrateRefusals, EachWithItsReasonAndWithoutSettings) {
 
 TEST(CalibratePoints, ThatLeaveHalfThePictureEmptySayHowWellItIsKnownThere) {
   const TemporaryFolder folder;
-  Points half;
+  ComputedPoints half;
   half.half = true;
   folder.write("near.csv", half.text());
   half.away = 112.0;
@@ -220,9 +182,9 @@ TEST(CalibrateRefusals, NameThePictureOfDotsThatAreSmearedOrCutOff) {
 
 TEST(CalibrateResiduals, AreWrittenADotARowAlsoOfWhatIsRefused) {
   const TemporaryFolder folder;
-  Points far;
+  ComputedPoints far;
   far.away = 112.0;
-  folder.write("near.csv", Points().text());
+  folder.write("near.csv", ComputedPoints().text());
   folder.write("far.csv", far.text());
   const std::string views =
       view_of("points = \"near.csv\"", "0") + view_of("points = \"far.csv\"", "30");
@@ -235,7 +197,7 @@ TEST(CalibrateResiduals, AreWrittenADotARowAlsoOfWhatIsRefused) {
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 201);
   EXPECT_NE(rows.find("\n1,72.0000,72.0000,0.0000,"), std::string::npos);
 
-  Points waves;
+  ComputedPoints waves;
   waves.wave = 0.1;
   folder.write("near.csv", waves.text());
   ASSERT_EQ(calibrate(folder, target_of(views), {"--residuals", "bad.csv"}).status, 1);
@@ -247,9 +209,9 @@ TEST(CalibrateResiduals, AreWrittenADotARowAlsoOfWhatIsRefused) {
 
 TEST(CalibrateType, IsForTrackingAndHasNoSerialNumber) {
   const TemporaryFolder folder;
-  Points far;
+  ComputedPoints far;
   far.away = 112.0;
-  folder.write("near.csv", Points().text());
+  folder.write("near.csv", ComputedPoints().text());
   folder.write("far.csv", far.text());
 
   const ProgramRun run = calibrate(

@@ -177,6 +177,7 @@ TEST(CalibrateTemplate, WhatCannotBePrintedIsRefused) {
        {Case{{"t.png"}, "t.png: expected a name that ends in .svg or .pdf"},
         Case{{"t.pdf", "--columns", "40"}, "--paper: A4: the template needs a paper of"},
         Case{{"t.pdf", "--dot-mm", "7"}, "--dot-mm: 7, expected at most 6.4"},
+        Case{{"t.pdf", "--dot-mm", "nan"}, "--dot-mm: Value nan not in range 0.05"},
         Case{{"t.pdf", "--paper", "A9"}, "--paper: 'A9', expected A4"},
         Case{{"t.pdf", "--paper", "100,-1"}, "--paper: '100,-1', expected A4"},
         Case{{"t.pdf", "--out", "x.toml"}, "calibrate template: writes the file"},

@@ -1,6 +1,5 @@
 // `tubesight calibrate camera` on drawn templates and on points, and what it must refuse.
 
-#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,10 +11,6 @@
 namespace tubesight::tests {
 namespace {
 
-const std::string kCamera =
-    "[camera]\nwidth_px = 640\nheight_px = 480\nscan = \"progressive\"\ncell_width_mm = 0.01\n"
-    "cell_height_mm = 0.01\nsensor_columns = 640\nframe_columns = 640\n";
-
 std::string target(const std::string& dot_mm = "4.0") {
   return "[target]\nrows = 10\ncolumns = 10\nspacing_mm = 8.0\ndot_mm = " + dot_mm +
          "\ndots = \"bright\"\n";
@@ -24,23 +19,10 @@ std::string target(const std::string& dot_mm = "4.0") {
 /// The template of draw_dots() without pixels: a points file.
 void write_points(const TemporaryFolder& folder, const std::string& name, double away,
                   double lean = 0.005) {
-  std::string text = "x_mm,y_mm,u_px,v_px\n";
-  for (int i = 0; i < 100; ++i) {
-    const double x = 8.0 * (i % 10);
-    const double y = 8.0 * (i / 10);
-    const double z = away + lean * (y - 36.0);
-    const double ideal_x = 5.0 * (x - 36.0) / z;
-    const double ideal_y = 5.0 * (y - 36.0) / z;
-    double factor = 1.0;
-    for (int k = 0; k < 60; ++k) {
-      const double r2 = (ideal_x * ideal_x + ideal_y * ideal_y) / (factor * factor);
-      factor = 1.0 + 0.01 * r2;
-    }
-    text += std::to_string(x) + "," + std::to_string(y) + "," +
-            std::to_string(310.0 + 100.0 * ideal_x / factor) + "," +
-            std::to_string(245.0 + 100.0 * ideal_y / factor) + "\n";
-  }
-  folder.write(name, text);
+  ComputedPoints points;
+  points.away = away;
+  points.lean = lean;
+  folder.write(name, points.text());
 }
 
 TEST(CalibrateCamera, FromPicturesOfTwoHeightsIsRight) {
@@ -48,10 +30,11 @@ TEST(CalibrateCamera, FromPicturesOfTwoHeightsIsRight) {
   draw_dots(folder, "near.pgm", 82.0);
   draw_dots(folder, "far.pgm", 112.0);
 
-  const ProgramRun run = calibrate(folder,
-                                   kCamera + target() + view_of("images = [\"near.pgm\"]", "0.0") +
-                                       view_of("images = [\"far.pgm\"]", "30.0"),
-                                   {"--out", "c.toml"});
+  const ProgramRun run =
+      calibrate(folder,
+                kPlainCamera + target() + view_of("images = [\"near.pgm\"]", "0.0") +
+                    view_of("images = [\"far.pgm\"]", "30.0"),
+                {"--out", "c.toml"});
 
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
@@ -72,8 +55,8 @@ TEST(CalibrateCamera, WritesSettingsThatPoseReadsWithTheirUncertainty) {
   write_points(folder, "near.csv", 82.0);
   write_points(folder, "far.csv", 112.0);
   const std::string settings =
-      kCamera + "[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n" + target("0") +
-      view_of("points = \"near.csv\"", "0") + view_of("points = \"far.csv\"", "30");
+      kPlainCamera + "[camera_quality]\nserial = \"4711\"\nmodel = \"Maker Model\"\n" +
+      target("0") + view_of("points = \"near.csv\"", "0") + view_of("points = \"far.csv\"", "30");
   folder.write("c.toml", "what stood here");
 
   const ProgramRun run = calibrate(folder, settings, {"--out", "c.toml"});
@@ -100,7 +83,8 @@ TEST(CalibrateCamera, RefusesWhatLeavesTheCameraOpenAndWritesNothing) {
   write_points(folder, "near.csv", 82.0);
   write_points(folder, "far.csv", 112.0);
   const auto expect_refused = [&](const std::string& views, const std::string& message) {
-    const ProgramRun run = calibrate(folder, kCamera + target("0") + views, {"--out", "c.toml"});
+    const ProgramRun run =
+        calibrate(folder, kPlainCamera + target("0") + views, {"--out", "c.toml"});
     EXPECT_EQ(run.status, 1) << message;
     EXPECT_NE(run.err.find("t.toml: no calibration: " + message), std::string::npos) << run.err;
     EXPECT_FALSE(std::filesystem::exists(folder.path("c.toml")));
@@ -113,7 +97,8 @@ TEST(CalibrateCamera, RefusesWhatLeavesTheCameraOpenAndWritesNothing) {
   expect_refused(view_of(near, "30") + view_of(far, "0"), "EFL or a distance comes out negative");
   write_points(folder, "flat.csv", 82.0, 0.0);
   write_points(folder, "flat_far.csv", 112.0, 0.0);
-  expect_refused(view_of("points = \"flat.csv\"") + view_of("points = \"flat_far.csv\""), "");
+  expect_refused(view_of("points = \"flat.csv\"") + view_of("points = \"flat_far.csv\""),
+                 "the views don't determine the camera");
 }
 
 TEST(CalibrateCamera, SaysWhichPictureShowsNoSuchTemplate) {
@@ -122,7 +107,7 @@ TEST(CalibrateCamera, SaysWhichPictureShowsNoSuchTemplate) {
   folder.write("grey.pgm", "P5\n640 480\n255\n" + std::string(640UL * 480UL, '\x60'));
   folder.write("small.pgm", "P5\n64 48\n255\n" + std::string(64UL * 48UL, '\x60'));
   const auto expect = [&](const std::string& settings, int status, const std::string& message) {
-    const ProgramRun run = calibrate(folder, kCamera + settings);
+    const ProgramRun run = calibrate(folder, kPlainCamera + settings);
     EXPECT_EQ(run.status, status) << message;
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
   };
@@ -154,15 +139,16 @@ TEST(CalibrateCamera, SaysWhatIsWrongWithItsFiles) {
     EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
     EXPECT_EQ(run.out, "");
   };
-  const std::string start = kCamera + target("0");
+  const std::string start = kPlainCamera + target("0");
 
   expect(start + view_of("points = \"bad.csv\""),
          "bad.csv:3: 'x', expected a number with up to 9 decimals");
   expect(start + view_of("points = \"few.csv\""), "few.csv: 1 points, expected at least 12");
   expect(start + view_of("points = \"head.csv\""), "head.csv:1: ");
-  expect(start + view_of("points = \"absent.csv\""), "absent.csv: ");
+  expect(start + view_of("points = \"absent.csv\""),
+         "absent.csv: cannot be read: No such file or directory");
   expect(start, "view: the tables are missing, expected a [[view]]");
-  expect(kCamera + view_of("points = \"bad.csv\""), "target: the table is missing");
+  expect(kPlainCamera + view_of("points = \"bad.csv\""), "target: the table is missing");
   expect(target() + view_of("points = \"bad.csv\""), "camera: the table is missing");
   const ProgramRun clash =
       calibrate(folder, start + view_of("points = \"bad.csv\""), {"--out", "bad.csv"});
@@ -176,10 +162,11 @@ TEST(CalibrateCamera, SaysThatTheDiskIsFull) {
   write_points(folder, "near.csv", 82.0);
   write_points(folder, "far.csv", 112.0);
 
-  const ProgramRun run = calibrate(folder,
-                                   kCamera + target("0") + view_of("points = \"near.csv\"", "0") +
-                                       view_of("points = \"far.csv\"", "30"),
-                                   {"--out", "/dev/full"});
+  const ProgramRun run =
+      calibrate(folder,
+                kPlainCamera + target("0") + view_of("points = \"near.csv\"", "0") +
+                    view_of("points = \"far.csv\"", "30"),
+                {"--out", "/dev/full"});
 
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(run.err, "/dev/full: cannot be written: No space left on device\n");

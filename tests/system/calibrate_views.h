@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -37,6 +38,50 @@ inline double number_of(const std::string& settings, const std::string& key) {
   EXPECT_NE(at, std::string::npos) << key;
   return at == std::string::npos ? 0.0 : std::atof(settings.c_str() + at + key.size() + 3);
 }
+
+/// A camera whose pixels are cells of 0.01 mm, as a target's file knows it beforehand.
+inline const std::string kPlainCamera =
+    "[camera]\nwidth_px = 640\nheight_px = 480\nscan = \"progressive\"\ncell_width_mm = 0.01\n"
+    "cell_height_mm = 0.01\nsensor_columns = 640\nframe_columns = 640\n";
+
+/// A points file of ten lines of ten points, 8 mm apart, as a plain camera of EFL 5 mm with a
+/// distortion of 0.01 per mm2 sees them: from `away` mm, leaning by the sine `lean`, with `depth`
+/// out of the plane in steps and a `wave` along it, mm, each off by up to `off_px` as by chance.
+struct ComputedPoints {
+  double away = 82.0;
+  double lean = 0.005;
+  double depth = 0.0;
+  double wave = 0.0;
+  double off_px = 0.0;
+  bool exchanged = false;
+  bool half = false;  ///< those of the left half alone
+
+  [[nodiscard]] std::string text() const {
+    std::string rows = depth > 0.0 ? "x_mm,y_mm,z_mm,u_px,v_px\n" : "x_mm,y_mm,u_px,v_px\n";
+    for (int i = 0; i < 100; ++i) {
+      const double x = 8.0 * (i % 10);
+      const double y = 8.0 * (i / 10);
+      const double z = depth * (i * 7 % 3);
+      if (half && i % 10 >= 5) {
+        continue;
+      }
+      const double cosine = std::sqrt(1.0 - lean * lean);
+      const double far = away + lean * (y - 36.0) + cosine * z;
+      const double ideal_x = 5.0 * (x + wave * std::sin(x / 12.0) - 36.0) / far;
+      const double ideal_y = 5.0 * (cosine * (y - 36.0) - lean * z) / far;
+      double factor = 1.0;
+      for (int k = 0; k < 60; ++k) {
+        factor = 1.0 + 0.01 * (ideal_x * ideal_x + ideal_y * ideal_y) / (factor * factor);
+      }
+      const double u = 310.0 + 100.0 * ideal_x / factor + off_px * std::sin(37.0 * i * i + away);
+      const double v = 245.0 + 100.0 * ideal_y / factor + off_px * std::cos(53.0 * i * i + away);
+      rows += std::to_string(exchanged ? y : x) + "," + std::to_string(exchanged ? x : y) + "," +
+              (depth > 0.0 ? std::to_string(z) + "," : "") + std::to_string(u) + "," +
+              std::to_string(v) + "\n";
+    }
+    return rows;
+  }
+};
 
 /// What may be wrong with a picture of dots.
 struct DrawnFaults {

@@ -15,6 +15,7 @@
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/progress_line.h"
 #include "board/bench/output/text_output.h"
+#include "board/bench/pose/calibration_quality.h"
 #include "core/overlay/palette.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_settings.h"
@@ -37,16 +38,6 @@ constexpr std::array<Rgb, 7> kColours = {{{20, 120, 220},
                                           {130, 60, 180},
                                           {60, 60, 60},
                                           {0, 160, 160}}};
-
-core::math::Matrix6d matrix_of(const std::array<double, 36>& values) {
-  core::math::Matrix6d matrix;
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) {
-      matrix(i, k) = values[static_cast<std::size_t>(6 * i + k)];
-    }
-  }
-  return matrix;
-}
 
 /// Over all distances alike.
 BudgetShare mean_of(const ScenarioResult& result) {
@@ -161,19 +152,14 @@ class BudgetRun {
   bool tell_vision() {
     const auto model = core::pose::make_pose_model(file_.settings.camera, file_.settings.tool,
                                                    file_.settings.tubesheet);
-    core::pose::CalibrationUncertainty uncertainty;
-    uncertainty.camera_sigma = file_.camera_quality.sigma;
-    uncertainty.tool_sigma = file_.tool_quality.sigma;
-    uncertainty.camera_correlation = matrix_of(file_.camera_quality.correlation);
-    uncertainty.tool_correlation = matrix_of(file_.tool_quality.correlation);
-    uncertainty.focal_length_correlation = file_.tool_quality.focal_length_correlation;
     VisionAssumptions assumptions;
     assumptions.height_mm = options_.height_mm;
     if (!model) {
       tell(options_.settings + ": camera, tool and tubesheet make no pose");
       return false;
     }
-    const auto budget = vision_budget(*model, file_.settings.tubesheet, uncertainty, assumptions);
+    const auto budget =
+        vision_budget(*model, file_.settings.tubesheet, uncertainty_of(file_), assumptions);
     if (!budget) {
       tell(options_.settings +
            ": no budget: fewer than four tube-ends are in the picture below the middle of the "

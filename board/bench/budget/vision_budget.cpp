@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/camera/camera_setup.h"
+#include "core/math/covariance.h"
 #include "core/math/rotation.h"
 #include "core/math/small_matrix.h"
 #include "core/tubesheet/sheet_places.h"
@@ -184,18 +185,6 @@ Eigen::Matrix3d axis_slope(const View& view, const core::pose::PoseModel& model)
   return -view.R_sheet_camera() * core::math::skew(R.col(2)) * axes * (std::numbers::pi / 180.0);
 }
 
-core::math::Matrix6d tool_covariance(const core::pose::CalibrationUncertainty& uncertainty) {
-  core::math::Matrix6d tool;
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) {
-      tool(i, k) = uncertainty.tool_correlation(i, k) *
-                   uncertainty.tool_sigma[static_cast<std::size_t>(i)] *
-                   uncertainty.tool_sigma[static_cast<std::size_t>(k)];
-    }
-  }
-  return tool;
-}
-
 /// Of the tool's six values with the EFL.
 core::math::Vector6d tool_with_focal(const core::pose::CalibrationUncertainty& uncertainty) {
   core::math::Vector6d common;
@@ -230,7 +219,8 @@ core::Result<VisionBudget> vision_budget(const core::pose::PoseModel& model,
     put(static_cast<VisionItem>(i), move * move.transpose());
   }
   const Eigen::Matrix3d camera = *moves * uncertainty.camera_correlation * moves->transpose();
-  const core::math::Matrix6d tool = tool_covariance(uncertainty);
+  const core::math::Matrix6d tool =
+      core::math::covariance_of(uncertainty.tool_sigma, uncertainty.tool_correlation);
   // By the tip, and by the axis where it meets the sheet; both together with what they have in
   // common, and with the EFL where one docking told it with them.
   const Eigen::Matrix3d at_sheet =

@@ -19,6 +19,7 @@ namespace {
 using core::calibration::BasePair;
 
 constexpr double kFarthest_mm = 100000.0;
+constexpr double kDeepest_mm = 500.0;  // a docked tip in its tube, as --dock-height-mm has it
 constexpr double kLargestTurn_deg = 360.0;
 constexpr double kLargestSigma_mm = 100.0;
 
@@ -46,6 +47,11 @@ class RowReader {
     pair.T_sheet_tool = {core::rotation_from_degrees(tool_deg),
                          Eigen::Vector3d(tool[0], tool[1], tool[2])};
     pair.sigma_mm << sigma[0], sigma[1], sigma[2];
+    if (tool[2] > kDeepest_mm) {
+      fail(kTool + 2,
+           "expected the tool below the sheet, at negative z, or at most 500 mm in a "
+           "tube; the robot's columns and vision's exchanged?");
+    }
     for (std::size_t k = 0; k < sigma.size(); ++k) {
       if (sigma[k] < 0.0) {
         fail(kSigma + k, "expected a standard deviation, 0 or more");

@@ -1,6 +1,5 @@
 #include "board/bench/calibrate/base_text.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "board/bench/calibrate/calibration_file.h"
+#include "core/math/covariance.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/toml_writer.h"
 
@@ -21,21 +21,17 @@ using core::calibration::PairOutcome;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-double sigma_of(const BaseCalibration& base, int i) {
-  return std::sqrt(std::max(0.0, base.covariance(i, i)));
-}
-
 void append_pose(std::string& text, const BaseReport& report) {
   const BaseCalibration& base = report.base;
   const auto& v = base.values;
+  const auto sigma = [&](int i) { return core::math::sigma_of(base.covariance, i); };
   drivers::print(text, "  position              x %.3f  y %.3f  z %.3f mm\n", v(0), v(1), v(2));
-  drivers::print(text, "    one sigma             %.3f  %.3f  %.3f mm\n", sigma_of(base, 0),
-                 sigma_of(base, 1), sigma_of(base, 2));
+  drivers::print(text, "    one sigma             %.3f  %.3f  %.3f mm\n", sigma(0), sigma(1),
+                 sigma(2));
   drivers::print(text, "  rotation              alpha %.4f  beta %.4f  gamma %.4f deg\n", v(3),
                  v(4), v(5));
-  drivers::print(text, "    one sigma             %.4f  %.4f  %.4f deg%s\n", sigma_of(base, 3),
-                 sigma_of(base, 4), sigma_of(base, 5),
-                 report.knowledge.level ? ", level as known beforehand" : "");
+  drivers::print(text, "    one sigma             %.4f  %.4f  %.4f deg%s\n", sigma(3), sigma(4),
+                 sigma(5), report.knowledge.level ? ", level as known beforehand" : "");
   const bool up = base.fit.pose.T_sheet_base.rotation()(2, 2) > 0.0;
   drivers::print(text, "  its z axis            points %s the sheet", up ? "to" : "away from");
   if (base.lean_sigma_rad > 0.0) {

@@ -1,9 +1,7 @@
 #include "board/bench/calibrate/calibration_file.h"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +12,7 @@
 
 #include "board/bench/output/text_output.h"
 #include "core/base/fnv1a.h"
+#include "core/math/covariance.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/text_files.h"
@@ -40,10 +39,6 @@ std::string now_in_words() {
   return text.data();
 }
 
-double sigma_of(const core::math::Matrix6d& covariance, int i) {
-  return std::sqrt(std::max(0.0, covariance(i, i)));
-}
-
 /// Whole, too, whatever happens: it is what a person goes back to.
 bool keep_former(const std::string& path) {
   std::string former;
@@ -66,15 +61,10 @@ bool read_whole(const std::string& path, std::string& text, std::vector<std::str
   drivers::DiskFiles files;
   std::string message;
   if (!files.read(path, text, message)) {
-    messages.push_back(path + ": " + message);
+    messages.push_back(path + ": cannot be read: " + message);
     return false;
   }
   return true;
-}
-
-double correlation_of(const core::math::Matrix6d& covariance, int i, int k) {
-  const double scale = sigma_of(covariance, i) * sigma_of(covariance, k);
-  return i == k ? 1.0 : scale > 0.0 ? covariance(i, k) / scale : 0.0;
 }
 
 std::string with_quality(const std::string& calibrated, const CalibrationQualityText& quality) {
@@ -85,11 +75,11 @@ std::string with_quality(const std::string& calibrated, const CalibrationQuality
   std::array<double, 6> sigma{};
   std::string correlation = "[";
   for (int i = 0; i < 6; ++i) {
-    sigma[static_cast<std::size_t>(i)] = sigma_of(quality.covariance, i);
+    sigma[static_cast<std::size_t>(i)] = core::math::sigma_of(quality.covariance, i);
     correlation += i > 0 ? ", [" : "[";
     for (int k = 0; k < 6; ++k) {
       drivers::print(correlation, k > 0 ? ", %.6f" : "%.6f",
-                     correlation_of(quality.covariance, i, k));
+                     core::math::correlation_of(quality.covariance, i, k));
     }
     correlation += ']';
   }

@@ -32,7 +32,4 @@ struct CalibrationQualityText {
 [[nodiscard]] bool read_whole(const std::string& path, std::string& text,
                               std::vector<std::string>& messages);
 
-/// The correlation of two of six parameters; 0 where one is held.
-[[nodiscard]] double correlation_of(const core::math::Matrix6d& covariance, int i, int k);
-
 }  // namespace tubesight::board

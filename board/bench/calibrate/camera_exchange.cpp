@@ -10,7 +10,6 @@
 #include "drivers/camera_yaml/camera_yaml.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
-#include "drivers/settings/text_files.h"
 #include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
@@ -76,14 +75,9 @@ CameraExport export_camera(const core::CameraSettings& camera, const std::string
 ExitStatus import_camera(const std::string& file, core::CameraSettings& camera,
                          std::string& report) {
   std::string text;
-  std::string reason;
-  drivers::DiskFiles files;
-  if (!files.read(file, text, reason)) {
-    return fail(file + ": " + reason, ExitStatus::kWrongInput);
-  }
   drivers::CameraYaml yaml;
   drivers::Messages messages;
-  if (!read_camera_yaml(text, file, yaml, messages)) {
+  if (!read_whole(file, text, messages) || !read_camera_yaml(text, file, yaml, messages)) {
     tell(messages);
     return ExitStatus::kWrongInput;
   }

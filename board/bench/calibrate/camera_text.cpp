@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "board/bench/calibrate/calibration_file.h"
+#include "board/bench/calibrate/honest_text.h"
 #include "core/calibration/picture_cover.h"
+#include "core/math/covariance.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
 #include "drivers/settings/toml_writer.h"
@@ -18,7 +20,10 @@ using core::calibration::CalibrationOutcome;
 using core::calibration::CalibrationRefusal;
 using core::calibration::CalibrationState;
 using core::calibration::Verdict;
+using core::math::correlation_of;
+using core::math::sigma_of;
 
+constexpr int kNames = 20;  // letters of the column that says what a line is about
 constexpr std::string_view kUseOfType =
     "tracking and position correction only, of any camera of this type, once a docking has told "
     "EFL";
@@ -35,27 +40,22 @@ constexpr std::array<Parameter, 6> kParameters = {{{"EFL", " mm", 5},
                                                    {"k", " per mm2", 6},
                                                    {"k2", " per mm4", 7}}};
 
-double sigma_of(const CalibrationOutcome& outcome, int i) {
-  return std::sqrt(std::max(0.0, outcome.fit.camera_covariance(i, i)));
-}
-
 /// The largest correlation of two parameters.
-void append_correlation(std::string& text, const CalibrationOutcome& outcome) {
+std::string largest_correlation(const core::math::Matrix6d& covariance) {
   int first = 0;
   int second = 1;
   for (int i = 0; i < 6; ++i) {
     for (int k = i + 1; k < 6; ++k) {
-      if (std::abs(correlation_of(outcome.fit.camera_covariance, i, k)) >
-          std::abs(correlation_of(outcome.fit.camera_covariance, first, second))) {
+      if (std::abs(correlation_of(covariance, i, k)) >
+          std::abs(correlation_of(covariance, first, second))) {
         first = i;
         second = k;
       }
     }
   }
-  drivers::print(text, "  largest correlation  %.3f, of %s and %s\n",
-                 correlation_of(outcome.fit.camera_covariance, first, second),
-                 kParameters[static_cast<std::size_t>(first)].name,
-                 kParameters[static_cast<std::size_t>(second)].name);
+  return correlation_text(correlation_of(covariance, first, second),
+                          kParameters[static_cast<std::size_t>(first)].name,
+                          kParameters[static_cast<std::size_t>(second)].name, kNames);
 }
 
 /// What the camera or the template has beside the model, and what one view leaves open.
@@ -129,6 +129,13 @@ core::CameraSettings calibrated(const core::CameraSettings& known,
   return camera;
 }
 
+core::calibration::CameraValues values_of(const core::CameraSettings& camera) {
+  core::calibration::CameraValues values;
+  values << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
+      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
+  return values;
+}
+
 std::string_view use_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::kBase: return "base calibration, pose and tracking";
@@ -190,25 +197,21 @@ std::string camera_text(const CalibrationData& data, const CalibrationState& sta
   text += '\n';
   for (int i = 0; i < 6; ++i) {
     const Parameter& parameter = kParameters[static_cast<std::size_t>(i)];
-    if (sigma_of(outcome, i) > 0.0) {
-      drivers::print(text, "  %-20s %.*f +- %.*f%s\n", parameter.name, parameter.digits,
-                     state.camera(i), parameter.digits, sigma_of(outcome, i), parameter.unit);
+    const double sigma = sigma_of(outcome.fit.camera_covariance, i);
+    if (sigma > 0.0) {
+      drivers::print(text, "  %-*s %.*f +- %.*f%s\n", kNames, parameter.name, parameter.digits,
+                     state.camera(i), parameter.digits, sigma, parameter.unit);
     }
   }
-  append_correlation(text, outcome);
+  text += largest_correlation(outcome.fit.camera_covariance);
   drivers::print(text,
                  "  residuals            %.4f px RMS of a dot, %.4f px sigma of a coordinate\n",
                  outcome.fit.rms_px, outcome.fit.sigma_px);
   append_misfits(text, data, state, outcome);
-  drivers::print(
-      text,
-      "  map uncertainty      %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, "
-      "%.0f)\n",
-      outcome.map.rms_px, outcome.map.worst_px, outcome.map.worst_u_px, outcome.map.worst_v_px);
+  text += map_text(outcome.map, kNames);
   text += more;
   if (outcome.refusal == CalibrationRefusal::kNone) {
-    const std::string_view use = type ? kUseOfType : use_of(outcome.verdict);
-    drivers::print(text, "  good for             %.*s\n", static_cast<int>(use.size()), use.data());
+    text += use_text(type ? kUseOfType : use_of(outcome.verdict), kNames);
   }
   text += next;
   return text;

@@ -13,6 +13,9 @@ namespace tubesight::board {
 [[nodiscard]] core::CameraSettings calibrated(const core::CameraSettings& known,
                                               const core::calibration::CameraValues& values);
 
+/// The reverse: what a calibration finds, as settings have it.
+[[nodiscard]] core::calibration::CameraValues values_of(const core::CameraSettings& camera);
+
 /// What a calibration is good for, in words.
 [[nodiscard]] std::string_view use_of(core::calibration::Verdict verdict);
 

@@ -45,6 +45,30 @@ std::string_view stand_of(core::calibration::NextView view) {
 
 }  // namespace
 
+std::string map_text(const core::calibration::MapUncertainty& map, int width) {
+  std::string text;
+  drivers::print(text, "  %-*s %.3f px RMS over the picture (one sigma), %.3f px at (%.0f, %.0f)\n",
+                 width, "map uncertainty", map.rms_px, map.worst_px, map.worst_u_px,
+                 map.worst_v_px);
+  return text;
+}
+
+std::string use_text(std::string_view use, int width) {
+  std::string text;
+  drivers::print(text, "  %-*s %.*s\n", width, "good for", static_cast<int>(use.size()),
+                 use.data());
+  return text;
+}
+
+std::string correlation_text(double correlation, std::string_view one, std::string_view other,
+                             int width) {
+  std::string text;
+  drivers::print(text, "  %-*s %.3f, of %.*s and %.*s\n", width, "largest correlation", correlation,
+                 static_cast<int>(one.size()), one.data(), static_cast<int>(other.size()),
+                 other.data());
+  return text;
+}
+
 std::string halves_text(const core::calibration::HalvesOutcome& halves) {
   std::string text;
   if (!halves.told) {

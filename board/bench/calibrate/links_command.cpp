@@ -11,6 +11,7 @@
 #include "board/bench/calibrate/base_pairs_file.h"
 #include "board/bench/calibrate/base_text.h"
 #include "board/bench/calibrate/calibration_file.h"
+#include "board/bench/calibrate/links_picture.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
 #include "core/calibration/base_calibration.h"
@@ -54,11 +55,12 @@ class LinksRun {
     core::calibration::calibrate_links(arm_, pairs_.pairs, pairs_.joints, base_.good.view(),
                                        base_.fit.pose, {}, workspace_, links_);
     if (links_.refusal != LinkRefusal::kNone) {
+      static_cast<void>(draw());
       tell(options_.pairs + ": no links: " + why());
       return ExitStatus::kJobFailed;
     }
     tell_links();
-    if (!write_out(text_)) {
+    if (!write_out(text_) || !draw()) {
       return ExitStatus::kJobFailed;
     }
     return options_.out.empty() || write_settings(options_.out, settings_text())
@@ -74,7 +76,7 @@ class LinksRun {
     }
     const std::string clash = find_clash(
         std::array{NamedPath{"the pairs", options_.pairs}, NamedPath{"--arm", options_.arm}},
-        std::array{NamedPath{"--out", options_.out}});
+        std::array{NamedPath{"--out", options_.out}, NamedPath{"--picture", options_.picture}});
     if (!clash.empty()) {
       tell(clash);
       return false;
@@ -90,6 +92,18 @@ class LinksRun {
     }
     tell(messages);
     return good;
+  }
+
+  /// The picture, where one is asked for and there is something to be seen; also of links that are
+  /// refused as no better, as that shows why.
+  bool draw() {
+    std::string message;
+    if (options_.picture.empty() || workspace_.misses.empty() ||
+        write_links_picture(options_.picture, pairs_, links_, workspace_.misses, message)) {
+      return true;
+    }
+    tell(message);
+    return false;
   }
 
   [[nodiscard]] std::string why() const {

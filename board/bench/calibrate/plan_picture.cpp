@@ -26,7 +26,7 @@ constexpr double kReddest_mm = 1.25;
 class Plan {
  public:
   explicit Plan(const PlanPicture& picture) {
-    least_ = most_ = picture.places[0].at_mm;
+    least_ = most_ = picture.places.empty() ? picture.marks[0].at_mm : picture.places[0].at_mm;
     const auto take = [&](const Eigen::Vector2d& at) {
       least_ = least_.cwiseMin(at);
       most_ = most_.cwiseMax(at);
@@ -84,6 +84,9 @@ void draw_mark(Painter& painter, const PlanPoint& point, const Plan& plan) {
     case PlanMark::kPair:
     case PlanMark::kCompared:
       painter.line(here, plan.at(point.at_mm + kMissScale * point.miss_mm), 2, palette::kWhite);
+      if (point.left_mm) {
+        painter.line(here, plan.at(point.at_mm + kMissScale * *point.left_mm), 3, palette::kUsed);
+      }
       painter.fill({here.u_px - 3, here.v_px - 3, here.u_px + 3, here.v_px + 3},
                    point.mark == PlanMark::kPair ? palette::kColumn : palette::kUnknown);
       break;
@@ -95,10 +98,12 @@ void draw_mark(Painter& painter, const PlanPoint& point, const Plan& plan) {
 
 bool write_plan(const std::string& path, const PlanPicture& picture, std::string& message) {
   const Plan plan(picture);
-  const std::int32_t foot = plan.height_px();
+  const std::int32_t caption = plan.height_px();
+  const std::int32_t foot =
+      caption + kLine_px * static_cast<std::int32_t>(picture.caption.size() + 1);
   core::RgbImageView view;
   view.width_px = plan.width_px();
-  view.height_px = foot + kLine_px * static_cast<std::int32_t>(picture.caption.size() + 1);
+  view.height_px = foot + picture.foot.height_px;
   view.stride_bytes = 3 * view.width_px;
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(view.stride_bytes) *
                                    static_cast<std::size_t>(view.height_px));
@@ -120,10 +125,13 @@ bool write_plan(const std::string& path, const PlanPicture& picture, std::string
   for (const PlanPoint& point : picture.marks) {
     draw_mark(painter, point, plan);
   }
-  std::int32_t line = foot;
+  std::int32_t line = caption;
   for (const std::string& words : picture.caption) {
     painter.text({8, line}, words, 1, palette::kWhite);
     line += kLine_px;
+  }
+  if (picture.foot.draw) {
+    picture.foot.draw(painter, foot);
   }
   return drivers::write_png(path, view, message).has_value();
 }

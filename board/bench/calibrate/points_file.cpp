@@ -8,11 +8,11 @@
 #include <system_error>
 #include <vector>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
-#include "drivers/settings/text_files.h"
 #include "drivers/settings/toml_writer.h"
 
 namespace tubesight::board {
@@ -54,12 +54,10 @@ std::string read_points(
     const std::string& path,
     core::StaticVector<core::calibration::SeenDot, core::calibration::kMaxDots>& dots) {
   std::string text;
-  std::string reason;
-  drivers::DiskFiles files;
-  if (!files.read(path, text, reason)) {
-    return path + ": " + reason;
-  }
   drivers::Messages messages;
+  if (!read_whole(path, text, messages)) {
+    return messages.front();
+  }
   drivers::Messages ignored;
   drivers::CsvReader csv(text, path);
   std::size_t columns = 5;

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "board/bench/calibrate/camera_text.h"
+#include "board/bench/pose/calibration_quality.h"
 #include "core/calibration/imaging.h"
 #include "core/calibration/tip_uncertainty.h"
 #include "core/tubesheet/sheet_places.h"
@@ -21,25 +23,6 @@ constexpr double kMostMap_px = 3.0;
 constexpr double kWrongFocal_px = 4.0;  // residuals that a wrong EFL may leave
 // Where the type's EFL makes no pose: those around it.
 constexpr std::array<double, 7> kTries = {1.0, 0.98, 1.02, 0.96, 1.04, 0.93, 1.07};
-
-core::math::Matrix6d covariance_of(const drivers::CalibrationQuality& type) {
-  core::math::Matrix6d covariance = core::math::Matrix6d::Zero();
-  for (int i = 0; type.has_sigma && i < 6; ++i) {
-    for (int k = 0; k < 6; ++k) {
-      covariance(i, k) = type.correlation[static_cast<std::size_t>(6 * i + k)] *
-                         type.sigma[static_cast<std::size_t>(i)] *
-                         type.sigma[static_cast<std::size_t>(k)];
-    }
-  }
-  return covariance;
-}
-
-core::calibration::CameraValues values_of(const core::CameraSettings& camera) {
-  core::calibration::CameraValues values;
-  values << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
-      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-  return values;
-}
 
 /// One search; its members are the arguments of free_focal().
 class FocalSearch {

@@ -95,6 +95,12 @@ bool take_assumption(const CalibrateToolOptions& options, ToolInputs& inputs) {
                  ", expected X,Y on the sheet");
   }
   inputs.offset_mm << 1e-6 * static_cast<double>(values[0]), 1e-6 * static_cast<double>(values[1]);
+  const double most_mm = 0.5 * inputs.file.settings.tubesheet.bore_mm;
+  if (inputs.offset_mm.norm() > most_mm) {
+    return wrong("--dock-offset-mm: " + drivers::in_quotes(options.offset_mm) +
+                 ", expected a tip within the tube, " + drivers::number_text(most_mm) +
+                 " mm at most from its centre");
+  }
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include "board/bench/pose/pose_overlay.h"
 #include "core/camera/camera_setup.h"
+#include "core/math/covariance.h"
 #include "core/overlay/painter.h"
 #include "core/overlay/palette.h"
 #include "core/picture/sheet_view.h"
@@ -110,7 +111,7 @@ void draw_misses(Painter& painter, const ToolPicture& picture, std::int32_t zoom
 
 std::vector<std::string> caption_of(const ToolReport& report, const ToolPicture& picture) {
   const auto& v = report.tool.values;
-  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, report.tool.covariance(i, i))); };
+  const auto sigma = [&](int i) { return core::math::sigma_of(report.tool.covariance, i); };
   std::vector<std::string> lines(1);
   drivers::print(lines[0], "tip %.3f %.3f %.3f mm, one sigma %.3f %.3f %.3f", v(0), v(1), v(2),
                  sigma(0), sigma(1), sigma(2));

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "board/bench/calibrate/calibration_file.h"
 #include "drivers/files/csv_reader.h"
 #include "drivers/files/decimal.h"
-#include "drivers/settings/text_files.h"
 
 namespace tubesight::board {
 namespace {
@@ -44,13 +44,11 @@ bool read_row(const drivers::CsvReader& csv, const core::CameraSettings& camera,
 bool read_tool_points(const std::string& path, const core::CameraSettings& camera,
                       ToolPointsFile& file, std::string& message) {
   std::string text;
-  std::string reason;
-  drivers::DiskFiles files;
-  if (!files.read(path, text, reason)) {
-    message = path + ": " + reason;
+  drivers::Messages messages;
+  if (!read_whole(path, text, messages)) {
+    message = messages.front();
     return false;
   }
-  drivers::Messages messages;
   drivers::CsvReader csv(text, path);
   if (!csv.read_header({kColumns.begin(), kColumns.end()}, messages)) {
     message = messages.front();

@@ -1,12 +1,13 @@
 #include "board/bench/calibrate/tool_text.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "board/bench/calibrate/calibration_file.h"
+#include "board/bench/calibrate/honest_text.h"
 #include "board/bench/calibrate/tool_silhouette.h"
+#include "core/math/covariance.h"
 #include "drivers/files/decimal.h"
 #include "drivers/settings/session_text.h"
 #include "drivers/settings/silhouette_settings.h"
@@ -25,17 +26,14 @@ void append_focal(const ToolReport& report, std::string& text) {
   Eigen::Index most = 0;
   static_cast<void>(report.focal_correlation.cwiseAbs().maxCoeff(&most));
   constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "alpha", "beta", "gamma"};
-  drivers::print(text, "  largest correlation   %.3f, of EFL and %s\n",
-                 report.focal_correlation(most), kNames[static_cast<std::size_t>(most)]);
-  drivers::print(text,
-                 "  map uncertainty       %.3f px RMS over the picture (one sigma), %.3f px at "
-                 "(%.0f, %.0f)\n",
-                 freed.map.rms_px, freed.map.worst_px, freed.map.worst_u_px, freed.map.worst_v_px);
+  constexpr int kWidth = 21;
+  text += correlation_text(report.focal_correlation(most), "EFL",
+                           kNames[static_cast<std::size_t>(most)], kWidth);
+  text += map_text(freed.map, kWidth);
   drivers::print(text,
                  "  tip by this camera    %.3f mm across (one sigma), %.0f mm below the sheet\n",
                  freed.tip_mm, kFreedGap_mm);
-  drivers::print(text, "  good for              %.*s\n", static_cast<int>(kFreedFocalUse.size()),
-                 kFreedFocalUse.data());
+  text += use_text(kFreedFocalUse, kWidth);
 }
 
 std::string verdict_of(const ToolReport& report) {
@@ -59,7 +57,7 @@ std::string verdict_of(const ToolReport& report) {
 std::string tool_report_text(const ToolReport& report) {
   std::string text;
   const core::calibration::ToolCalibration& tool = report.tool;
-  const auto sigma = [&](int i) { return std::sqrt(std::max(0.0, tool.covariance(i, i))); };
+  const auto sigma = [&](int i) { return core::math::sigma_of(tool.covariance, i); };
   const auto& v = tool.values;
   const bool clearance = report.dockings > 0 && report.assumption.clearance_mm > 0.0;
   drivers::print(text, "  tip in the camera     x %.4f  y %.4f  z %.4f mm\n", v(0), v(1), v(2));

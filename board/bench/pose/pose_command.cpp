@@ -16,6 +16,7 @@
 #include "board/bench/output/still_averager.h"
 #include "board/bench/output/still_reader.h"
 #include "board/bench/output/text_output.h"
+#include "board/bench/pose/calibration_quality.h"
 #include "board/bench/pose/pose_overlay.h"
 #include "board/bench/pose/pose_starts.h"
 #include "board/bench/pose/pose_text.h"
@@ -195,11 +196,7 @@ class PoseRun {
            "[camera_quality] or [tool_quality]");
       return false;
     }
-    calibrations_.camera_sigma = file_.camera_quality.sigma;
-    calibrations_.tool_sigma = file_.tool_quality.sigma;
-    calibrations_.camera_correlation = matrix_of(file_.camera_quality.correlation);
-    calibrations_.focal_length_correlation = file_.tool_quality.focal_length_correlation;
-    calibrations_.tool_correlation = matrix_of(file_.tool_quality.correlation);
+    calibrations_ = uncertainty_of(file_);
     correction_.limit_mm = options_.limit_mm;
     if (!options_.correct.empty() && (!parse_address(options_.correct, correction_.tube) ||
                                       map_.state(correction_.tube) == core::TubeState::kAbsent)) {
@@ -208,14 +205,6 @@ class PoseRun {
       return false;
     }
     return true;
-  }
-
-  static core::math::Matrix6d matrix_of(const std::array<double, 36>& rows) {
-    core::math::Matrix6d matrix = core::math::Matrix6d::Identity();
-    for (int i = 0; i < 36; ++i) {
-      matrix(i / 6, i % 6) = rows[static_cast<std::size_t>(i)];
-    }
-    return matrix;
   }
 
   bool outputs_fit() {

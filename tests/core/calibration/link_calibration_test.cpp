@@ -118,6 +118,31 @@ TEST(LinkCalibration, TellsPlacesThatItHasNotSeen) {
   EXPECT_FALSE(bench->result.standing[1]);
 }
 
+TEST(LinkCalibration, SaysHowFarEachPairIsFromWhereTheOtherHalfForetellsIt) {
+  const auto bench = drawn(wrong_arm(0.3, 2e-4, 5e-4, 3), 40, 0.05, 1);
+
+  ASSERT_EQ(bench->run(), LinkRefusal::kNone);
+
+  const LinkMisses& misses = bench->workspace.misses;
+  ASSERT_EQ(misses.size(), bench->base.good.size());
+  double alone = 0.0;
+  double with_links = 0.0;
+  int nearer = 0;
+  for (std::int32_t i = 0; i < misses.size(); ++i) {
+    EXPECT_EQ(misses[i].pair, bench->base.good[i]);
+    alone += misses[i].base_alone_mm.squaredNorm();
+    with_links += misses[i].with_links_mm.squaredNorm();
+    nearer += misses[i].with_links_mm.norm() < misses[i].base_alone_mm.norm() ? 1 : 0;
+  }
+  EXPECT_NEAR(std::sqrt(alone / misses.size()), bench->result.base_alone_mm, 1e-12);
+  EXPECT_NEAR(std::sqrt(with_links / misses.size()), bench->result.with_links_mm, 1e-12);
+  EXPECT_GT(nearer, 30);
+
+  bench->joints[5][1] += 0.5;
+  ASSERT_EQ(bench->run(), LinkRefusal::kForeignJoints);
+  EXPECT_TRUE(misses.empty()) << "nothing was fitted";
+}
+
 TEST(LinkCalibration, PromisesTheErrorOfItsNumbers) {
   double nees = 0.0;
   int count = 0;

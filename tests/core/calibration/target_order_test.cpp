@@ -22,6 +22,7 @@ class TargetOrder : public ::testing::Test {
     element.row = row;
     element.column = column;
     element.centroid_px << 100 * column, 100 * row;
+    element.contrast = 100.0;
     ASSERT_TRUE(found_->elements.try_push_back(element));
   }
   /// The place that an element was given, or one far away.
@@ -100,6 +101,20 @@ TEST_F(TargetOrder, BearsAMissingDotAndAStrayOne) {
 
   EXPECT_EQ(dots_->size(), 35);
   EXPECT_GT(given(6, 2).x(), 1e8);
+}
+
+TEST_F(TargetOrder, LeavesOutADotWhoseCentroidThePictureCutsOff) {
+  found_at({8.0, 0.0}, {0.0, 8.0}, 4.0);
+  for (int i = 0; i < 24; ++i) {
+    add(i / 6, i % 6);
+  }
+  found_->elements[5].contrast = -1.0;  // the last of the first line: the template ends there
+
+  ASSERT_EQ(order(), OrderRefusal::kNone);
+
+  EXPECT_EQ(dots_->size(), 23);
+  EXPECT_GT(given(0, 5).x(), 1e8);
+  EXPECT_EQ((given(0, 4) - given(0, 3)).norm(), 8.0);
 }
 
 TEST_F(TargetOrder, OfAnotherTemplateIsRefused) {
