@@ -71,6 +71,10 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   straighten(stretched, found);
   measure_doubtful(stretched, found);
   drop_unsure(found);
+  if (options.with_faint && found.dark) {
+    drop_closed(stretched, found);
+    add_faint(stretched, found);
+  }
   find_centers(found);  // by centres now, as those before were by the ellipses' own
   weigh_all(stretched, found);
   count_from_zero(found);

@@ -33,6 +33,7 @@ struct LatticeElement {
   double share = 0.0;        ///< of the outline that was measured; 0: none of it
   double rms_px = 0.0;       ///< of the edge's points from the ellipse
   bool by_contrast = false;  ///< no edge was measured, and its share is 0 in the end
+  bool faint = false;        ///< so little of it is seen that its neighbours say where it is
   Levels levels;             ///< above the picture's darkest
 };
 
@@ -47,6 +48,9 @@ struct FoundLattice {
 struct FinderOptions {
   BlobLimits blobs;
   double least_contrast = 10.0;  ///< grey levels between an element and what surrounds it
+  /// Tube-ends that show no edge are taken, too, by their light (look_at_faint()): to be shown and
+  /// counted. Nothing is to be measured from where they are.
+  bool with_faint = false;
 };
 
 /// Why there is none.
@@ -101,6 +105,13 @@ class LatticeFinder {
                                    const FoundLattice& found, LatticeElement& element);
   bool try_place(const picture::AveragedPicture& stretched, std::int32_t from, std::int32_t row,
                  std::int32_t column, FoundLattice& found);
+  void drop_closed(const picture::AveragedPicture& stretched, FoundLattice& found);
+  void add_faint(const picture::AveragedPicture& stretched, FoundLattice& found);
+  [[nodiscard]] bool look_for_faint(const picture::AveragedPicture& stretched,
+                                    const FoundLattice& found, LatticeElement& element);
+  [[nodiscard]] bool look_beside_place(const picture::AveragedPicture& stretched,
+                                       const LocalMap& map, const FoundLattice& found,
+                                       LatticeElement& element);
   void find_centers(FoundLattice& found);
   static void weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   static void count_from_zero(FoundLattice& found);

@@ -75,7 +75,9 @@ class LookRun {
     core::picture::PictureAverage average(sums_, picture_.width_px, picture_.height_px);
     if (average.add(field_of(picture_.view(), core::Parity::kProgressive))) {
       if (const auto averaged = average.finish()) {
-        refusal = finder_->find(*averaged, {}, scratch_, *found_);
+        core::detection::FinderOptions finder;
+        finder.with_faint = true;
+        refusal = finder_->find(*averaged, finder, scratch_, *found_);
       }
     }
     if (refusal != FinderRefusal::kNone) {

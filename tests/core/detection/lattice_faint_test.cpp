@@ -1,0 +1,60 @@
+// A lattice with a tube-end that a flat lamp fills with light: found where that is asked for.
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/detection/lattice_finder.h"
+#include "tests/core/detection/drawn_lattice.h"
+
+namespace tubesight::core::detection {
+namespace {
+
+constexpr int kRow = 2;
+constexpr int kColumn = 8;
+
+TEST(LatticeFinderInLittleLight, ATubeEndFilledWithLightIsMarkedFaintAndOnlyFoundWhenAskedFor) {
+  DrawnLattice drawn;
+  drawn.background = 30.0;
+  drawn.inside = 4.0;
+  drawn.absent = [](int row, int column) { return row == kRow && column == kColumn; };
+  const picture::AveragedPicture picture = drawn.draw();
+  // A bore in its place: dark at its left end, brighter than the sheet at the right one.
+  const Eigen::Vector2d at = drawn.pixel_of(drawn.center(kRow, kColumn));
+  for (int v = -12; v <= 12; ++v) {
+    for (int u = -12; u <= 12; ++u) {
+      if (u * u + v * v <= 150) {
+        const int x = static_cast<int>(std::lround(at.x())) + u;
+        const int y = static_cast<int>(std::lround(at.y())) + v;
+        drawn.cover(x, y, x, y, 27 + u / 2);
+      }
+    }
+  }
+  const auto finder = std::make_unique<LatticeFinder>();
+  const auto found = std::make_unique<FoundLattice>();
+  std::vector<std::uint16_t> scratch(drawn.pixels.size());
+  FinderOptions options;
+
+  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+  const std::int32_t without = found->elements.size();
+  options.with_faint = true;
+  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+
+  EXPECT_EQ(without, drawn.rows * drawn.columns - 1);
+  EXPECT_EQ(found->elements.size(), without + 1);
+  int faint = 0;
+  for (const LatticeElement& element : found->elements) {
+    if (element.faint) {
+      ++faint;
+      EXPECT_LT((element.center_px - at).norm(), 1.0);
+      EXPECT_EQ(element.share, 0.0);
+    }
+  }
+  EXPECT_EQ(faint, 1);
+}
+
+}  // namespace
+}  // namespace tubesight::core::detection
