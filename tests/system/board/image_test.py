@@ -351,7 +351,7 @@ def test_network(disk, work):
         port = probe.getsockname()[1]
     # The emulator's own network, which ends at this machine.
     wire = ("-netdev", f"user,id=wire,restrict=on,hostfwd=tcp:127.0.0.1:{port}-:22",
-            "-device", "virtio-net-pci,netdev=wire")
+            "-device", "virtio-net-pci,netdev=wire,romfile=")
     with powered(disk, *wire) as board:
         board.expect(r"slot a is good: the box answers", ANSWER_S)
 
