@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/base/result.h"
 #include "drivers/files/atomic_file.h"
 
 namespace tubesight::board {
@@ -48,16 +47,6 @@ std::string first_word_of(const std::string& path) {
   file >> word;
   word.resize(std::min(word.size(), kLongestId));
   return word;
-}
-
-core::Result<void> keep(const std::string& folder, const std::string& path, const Kept& kept,
-                        drivers::AtomicFile& file) {
-  TUBESIGHT_TRY(file.open(path));
-  TUBESIGHT_TRY(file.write(text_of(kept)));
-  TUBESIGHT_TRY(file.sync());
-  TUBESIGHT_TRY(file.commit());
-  return drivers::sync_folder(folder) ? core::Result<void>()
-                                      : core::Result<void>(core::Unexpected(core::Error::kIo));
 }
 
 }  // namespace
@@ -101,9 +90,8 @@ BootCount count_boot(const std::string& folder, const std::string& boot_id_file)
     kept = {kept.boot + 1, 1, id};
   }
   drivers::AtomicFile file;
-  if (!keep(folder, path, kept, file)) {
-    count.trouble = file.message().empty() ? path + ": cannot be kept: " + std::strerror(errno)
-                                           : file.message();
+  if (!file.open(path) || !file.write(text_of(kept)) || !file.commit_to_disk()) {
+    count.trouble = file.message();
     return count;
   }
   count.boot = kept.boot;

@@ -166,7 +166,8 @@ std::string sighting_text(const core::Sighting& sighting) {
   return text;
 }
 
-std::string status_text(const BoxReport& report) {
+/// `bad`: the self-test's rows that are.
+std::string status_text(const BoxReport& report, const std::string& bad) {
   const TrackingStatus& tracking = report.tracking;
   std::string text = "source    " + std::string(report.source_kind) + ", " +
                      std::string(name_of(report.source)) + ", " + rate_text(report.fields_per_s) +
@@ -194,7 +195,6 @@ std::string status_text(const BoxReport& report) {
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
-  const std::string bad = bad_rows(self_test(report));
   text += std::string("\nself-test ") + (!report.self_test_finished ? "not finished"
                                          : bad.empty()              ? "nothing is bad"
                                                                     : "bad: " + bad);
@@ -208,6 +208,7 @@ std::string status_text(const BoxReport& report) {
 }  // namespace
 
 std::string status_answer(const BoxReport& report) {
+  const std::string bad = bad_rows(self_test(report));
   JsonLine line = begin_answer("status", true);
   line.add("version", program_version());
   line.add_printed("up_s", decimal(report.up.count(), 1'000'000'000, 1));
@@ -239,9 +240,9 @@ std::string status_answer(const BoxReport& report) {
   line.open("boot").add("known", report.boots.known()).add("number", report.boots.boot);
   line.add("start", report.boots.start).add("trouble", report.boots.trouble).close();
   line.open("self_test").add("finished", report.self_test_finished);
-  line.add("bad", bad_rows(self_test(report))).close();
+  line.add("bad", bad).close();
   line.open("poses").add("fields_passed_over", report.poses_passed_over).close();
-  return line.add("text", status_text(report)).finish();
+  return line.add("text", status_text(report, bad)).finish();
 }
 
 }  // namespace tubesight::board

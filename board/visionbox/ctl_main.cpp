@@ -1,6 +1,5 @@
 // tubesightctl: asks a running box.
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -11,6 +10,7 @@
 
 #include "board/box/version.h"
 #include "board/visionbox/control_protocol.h"
+#include "board/visionbox/program_arguments.h"
 #include "drivers/control/control_client.h"
 
 namespace tubesight::board {
@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kDone = 0;
 constexpr int kBoxRefused = 1;  ///< or a self-test that found something
-constexpr int kWrongInput = 2;
 constexpr int kNoBox = 3;
 
 struct Options {
@@ -113,17 +112,8 @@ int run_program(int argc, const char* const* argv) {
   app.require_subcommand(1);
   Options options;
   add_commands(app, options);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      return app.exit(problem) == 0 ? kDone : kWrongInput;
-    }
-    std::string text = problem.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    std::fprintf(stderr, "tubesightctl: %s (tubesightctl --help tells the arguments)\n",
-                 text.c_str());
-    return kWrongInput;
+  if (const auto status = read_arguments(app, argc, argv)) {
+    return *status;
   }
   if (options.place.find_first_of(" \n") != std::string::npos ||
       options.tubes.find_first_of(" \n") != std::string::npos) {

@@ -1,6 +1,5 @@
 // tubesightd: the vision box as a service.
 
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -19,6 +18,7 @@
 #include "board/visionbox/lamp_device.h"
 #include "board/visionbox/log.h"
 #include "board/visionbox/panic_dimmer.h"
+#include "board/visionbox/program_arguments.h"
 #include "board/visionbox/record_settings.h"
 #include "board/visionbox/service_manager.h"
 
@@ -27,7 +27,6 @@ namespace {
 
 constexpr int kDone = 0;
 constexpr int kFailed = 1;
-constexpr int kWrongInput = 2;
 
 /// SIGTERM and SIGINT, those of a terminal that is closed, and others that would end the program
 /// with its lamp lit, as a descriptor. Blocked before any thread runs, so that none is hit.
@@ -93,16 +92,8 @@ int run_program(int argc, const char* const* argv) {
       ->required();
   app.add_flag("--check", check, "Read the settings, tell every mistake, and exit");
   app.add_flag("--dark", dark, "Make the lamp dark, as after a box that was killed, and exit");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-      return app.exit(problem) == 0 ? kDone : kWrongInput;
-    }
-    std::string text = problem.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    std::fprintf(stderr, "tubesightd: %s (tubesightd --help tells the arguments)\n", text.c_str());
-    return kWrongInput;
+  if (const auto status = read_arguments(app, argc, argv)) {
+    return *status;
   }
   const auto settings = std::make_unique<BoxSettings>();
   drivers::Messages messages;

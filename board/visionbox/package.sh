@@ -19,6 +19,8 @@ esac
 folder=$(realpath -m "${2:-$(dirname "${BASH_SOURCE[0]}")/../../build/packages}")
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
+# cpack writes the mode of its temporary files into the package.
+umask 022
 preset=visionbox-$architecture
 scripts/install_packages.sh "board-$architecture"
 toolchain/debian_sysroot.sh "$architecture" "build/sysroot-$architecture"

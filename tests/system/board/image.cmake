@@ -12,5 +12,6 @@ if(NOT CMAKE_CROSSCOMPILING AND CMAKE_BUILD_TYPE MATCHES "^Rel")
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64 AND TARGET tubesightd)
   add_test(NAME board.image COMMAND ${Python3_EXECUTABLE} -B ${here}/image_test.py
     --cpack ${CMAKE_CPACK_COMMAND} --build ${PROJECT_BINARY_DIR})
-  set_tests_properties(board.image PROPERTIES LABELS board TIMEOUT 1500 COST 1000)
+  set_tests_properties(board.image PROPERTIES LABELS board TIMEOUT 1500 COST 1000
+    RESOURCE_LOCK steady_board)
 endif()

@@ -312,6 +312,28 @@ class Slots(Folder):
         self.assertEqual((done.returncode, done.stderr), (1, "tubesight-slot: expected a or b, found 'c'\n"))
 
 
+class Units(Folder):
+    """The image's own units run as root; the service manager's measure of what is left to them, in tenths.
+    docs/security.md quotes it."""
+
+    EXPOSURE = {"tubesight-slot": 12, "tubesight-grow": 13}
+
+    def measure(self, unit, threshold):
+        done = subprocess.run(["systemd-analyze", "security", "--offline=yes", "--no-pager",
+                               f"--threshold={threshold}", unit], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout
+
+    def test_no_more_is_allowed_to_them_than_is_said(self):
+        units = IMAGE / "files/etc/systemd/system"
+        self.assertEqual({path.stem for path in units.glob("*.service")}, set(self.EXPOSURE))
+        for name, exposure in self.EXPOSURE.items():
+            status, said = self.measure(units / f"{name}.service", exposure)
+            self.assertEqual(status, 0, f"{name}: {said[-200:]}")
+            text = (units / f"{name}.service").read_text(encoding="utf-8")
+            opened = self.write(f"{name}.service", text.replace("NoNewPrivileges=yes", ""))
+            self.assertNotEqual(self.measure(opened, exposure)[0], 0)
+
+
 class ImageScript(Folder):
     """What it refuses, before anything is installed, fetched or written."""
 

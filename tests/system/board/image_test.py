@@ -5,9 +5,13 @@ Usage: image_test.py [--package FILE.deb | --cpack CPACK --build BUILD_FOLDER] [
 
 The package is FILE.deb, or what cpack makes of a build folder, or that of package.sh.
 
-One boot by default, with a tubesight.txt as Windows writes it: U-Boot counts, the box answers, the slot is
-good, and the disk holds what it should. With --long also: a second boot keeps all; a slot without a root,
-and one whose box dies, give way to the other; a key comes in by the network, and nothing else listens.
+One boot by default, with a tubesight.txt as Windows writes it: U-Boot counts, the robot is told over its line
+which tube is before the simulated camera, the slot is good, and the disk holds what it should. With --long
+also: a second boot keeps all; a slot without a root, and one whose box dies, give way to the other; a key
+comes in by the network, and nothing else listens.
+
+Where the box is to answer, the board is a steady one: a busy machine does not take from it the seconds that
+it has for that.
 """
 import argparse
 import contextlib
@@ -22,7 +26,8 @@ import tempfile
 import time
 import zlib
 
-from board_machine import Board
+from board_box import WAITING, Robot
+from board_machine import CLOCK_FROM_0, Board
 from board_parts import BoardError, ROOT, run, tool
 
 IMAGE_SCRIPT = ROOT / "board" / "visionbox" / "image.sh"
@@ -77,11 +82,12 @@ class Disk:
     def put_file(self, name, content):
         source = self.path.with_suffix(".file")
         source.write_bytes(content)
-        folder, _, _ = name.rpartition("/")
-        where = f"{self.path}@@{BOOT_PARTITION}"
-        if folder:
-            run("mmd", "-D", "s", "-i", where, f"::{folder}")
-        run("mcopy", "-o", "-i", where, source, f"::{name}")
+        run("mcopy", "-o", "-i", f"{self.path}@@{BOOT_PARTITION}", source, f"::{name}")
+
+    def put_folder(self, name, files):
+        run("mmd", "-i", f"{self.path}@@{BOOT_PARTITION}", f"::{name}")
+        for file, content in files.items():
+            self.put_file(f"{name}/{file}", content)
 
     def boot_file(self, name):
         return run("mtype", "-i", f"{self.path}@@{BOOT_PARTITION}", f"::{name}").replace("\r\n", "\n")
@@ -107,25 +113,28 @@ class Disk:
 
 
 @contextlib.contextmanager
-def powered(disk):
-    with Board(bios=CACHE / "u-boot-emulated.bin", disks=[disk.path]) as board:
+def powered(disk, *arguments, steady=True):
+    with Board(bios=CACHE / "u-boot-emulated.bin", disks=[disk.path], steady=steady,
+               arguments=(*CLOCK_FROM_0, *arguments)) as board:
         board.power_on()
         yield board
 
 
-def boot_to_answer(disk, slot, count=1):
-    """One boot until the slot is good, then a power cut; what the console said."""
-    begin = time.monotonic()
+def boot_to_answer(disk, slot, ask=None):
+    """One boot until the slot is good, then a power cut; what the console said. `ask` gets the board as soon as
+    it is on."""
     with powered(disk) as board:
-        board.expect(rf"tubesight: slot {slot}, boot {count} of 3", START_S)
+        board.expect(rf"tubesight: slot {slot}, boot 1 of 3", START_S)
+        if ask is not None:
+            ask(board)
         board.expect(rf"slot {slot} is good: the box answers", ANSWER_S)
-        say(f"  slot {slot} answers {time.monotonic() - begin:.0f} s after power on")
+        say(f"  slot {slot} is good {board.seconds_on()} s after power on, by the board's clock")
         return board.console
 
 
-def boot_to_reboot(disk, slot, count, seconds):
+def boot_to_reboot(disk, slot, count, seconds, steady=False):
     """One boot that comes to no answer and ends itself."""
-    with powered(disk) as board:
+    with powered(disk, steady=steady) as board:
         board.expect(rf"tubesight: slot {slot}, boot {count} of 3", START_S)
         board.wait_off(seconds)
         return board.console
@@ -194,21 +203,70 @@ def test_raspberry_pi_counts(small, work):
 SETTINGS = """format = 1
 [source]
 kind = "simulated"
-scenario = "/usr/share/doc/tubesight/docs/examples/steam-generator.toml"
+scenario = "still.toml"
 [record]
 folder = "/var/lib/tubesight"
 [control]
 socket = "/run/tubesight/control"
+[link]
+kind = "modbus"
+device = "/dev/ttyS0"
+baud = 115200
+parity = "none"
+unit = 17
 """
+TUBE, NEIGHBOUR = (40, 60), (41, 60)
+# The tool rests under TUBE. To draw takes an emulated board long: few pictures, so that a tool must be slow, and
+# the window alone.
+STILL = (pathlib.Path(__file__).parent / "round.toml").read_text(encoding="utf-8").partition("[path]")[0] \
+    .replace("rate_hz = 29.97", "rate_hz = 7.5\nwindow_margin_px = 24") + """\
+[motion]
+max_speed_mm_s = 20
+max_acceleration_mm_s2 = 200
+max_turn_speed_deg_s = 10
+max_turn_acceleration_deg_s2 = 100
+
+[path]
+tube = [40, 60]
+height_mm = 55
+speed_mm_s = 10
+
+[[step]]
+rest_s = 86400
+"""
+# Places in it, in 1/1000 px, as `tubesight simulate` writes them into its session.
+CLICKS = [(*TUBE, 343000, 201000), (*NEIGHBOUR, 347000, 253000), (40, 59, 250000, 196000)]
+
+
+def ask_as_robot(board):
+    """Over the robot's line: the box waits, takes a start, and says which tube is before its camera."""
+    robot = Robot(board.robot)
+    robot.answers(ANSWER_S)
+    say(f"  the first answer on the robot's line {board.seconds_on()} s after power on, by the board's clock")
+    seen = robot.sighting()
+    expect((seen.state, seen.tube, seen.vouched), (WAITING, None, False), "a box that was switched on")
+    expect(robot.read(684, 4), [0, 1, 0, 1], "the numbers of this boot and start")
+    due = time.monotonic() + ANSWER_S
+    while (done := robot.start(CLICKS)) != (1, 0):
+        if time.monotonic() > due:
+            raise BoardError(f"the start is refused: {done}")
+    for claimed, wanted in ((TUBE, "AGREE"), (NEIGHBOUR, "DISAGREE")):
+        verdict = robot.claim(claimed)
+        while verdict.word == "CANNOT SAY" and time.monotonic() < due:
+            verdict = robot.claim(claimed)
+        expect((verdict.word, verdict.seen), (wanted, TUBE), f"the verdict on {claimed}")
+    say(f"  the robot is under {TUBE}: {seen.judged} fields judged before, {robot.sighting().judged} now")
+    robot.pull_out()
 
 
 def test_first_boot(disk):
     say("first boot, with a tubesight.txt of Windows's")
     disk.put_file("tubesight.txt",
                   b"\xef\xbb\xbfNAME = Box-7\r\ntime-zone = Europe/Paris\r\nnonsense\r\nsettings = Mine\r\n")
-    disk.put_file("MINE/BOX.TOML", (SETTINGS + "# by tubesight.txt\n").encode())
+    disk.put_folder("MINE", {"BOX.TOML": (SETTINGS + "# by tubesight.txt\n").encode(),
+                             "still.toml": STILL.encode()})
     expect(disk.state()["ts_tries"], "0", "boots counted on a fresh image")
-    console = boot_to_answer(disk, "a")
+    console = boot_to_answer(disk, "a", ask_as_robot)
     if not re.search(r"fields +[1-9][0-9]*, of which", console):
         raise BoardError(f"the box did not say that fields came:\n{console}")
     expect_in("tubesight.txt: line 3 REFUSED: 'nonsense' is no line of the form KEY = VALUE", console,
@@ -216,7 +274,7 @@ def test_first_boot(disk):
     expect(disk.boot_file("tubesight-result.txt").splitlines(), [
         "boot 1", "line 1: the box is called Box-7", "line 2: time zone Europe/Paris",
         "line 3 REFUSED: 'nonsense' is no line of the form KEY = VALUE",
-        "line 4: 1 files of folder 'Mine' are the box's settings", "1 refused."], "tubesight-result.txt")
+        "line 4: 2 files of folder 'Mine' are the box's settings", "1 refused."], "tubesight-result.txt")
     state = disk.state()
     expect((state["ts_slot"], state["ts_tries"], state["ts_bad_a"], state["ts_proven_a"]),
            ("a", "0", "0", "1"), "the boot count after an answer")
@@ -277,7 +335,7 @@ def test_box_that_dies(disk, package, work):
         disk.write(ROOT_A, image.read(ROOT_B - ROOT_A))
     state = disk.state()
     for count in (1, 2, 3):
-        console = boot_to_reboot(disk, "a", count, ANSWER_S + PATIENCE_S)
+        console = boot_to_reboot(disk, "a", count, ANSWER_S + PATIENCE_S, steady=True)
         expect_in("no answer from the box in slot a: the board starts again", console, "the console")
     boot_to_answer(disk, "b")
     expect((disk.state()["ts_bad_a"], state["ts_bad_a"]), ("1", "0"), "the boot count")
@@ -293,9 +351,8 @@ def test_network(disk, work):
         port = probe.getsockname()[1]
     # The emulator's own network, which ends at this machine.
     wire = ("-netdev", f"user,id=wire,restrict=on,hostfwd=tcp:127.0.0.1:{port}-:22",
-            "-device", "virtio-net-pci,netdev=wire")
-    with Board(bios=CACHE / "u-boot-emulated.bin", disks=[disk.path], arguments=wire) as board:
-        board.power_on()
+            "-device", "virtio-net-pci,netdev=wire,romfile=")
+    with powered(disk, *wire) as board:
         board.expect(r"slot a is good: the box answers", ANSWER_S)
 
         def ask(*words):
