@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "board/bench/input/recording_input.h"
 #include "board/bench/output/still_reader.h"
 #include "core/detection/lattice_finder.h"
 #include "core/picture/averaged_picture.h"
@@ -110,13 +111,12 @@ std::optional<LatticeFacts> find_lattice(const drivers::GreyPicture& picture) {
 /// What the recording's header says of rate and order of the lines.
 Result<void> read_header(const std::string& file, VideoFacts& facts, std::string& message) {
   drivers::Y4mReader reader;
-  if (const auto opened = reader.open(file); !opened) {
-    message = reader.message();
-    return opened;
-  }
+  TUBESIGHT_TRY(open_frames(reader, file, message));
   const drivers::Y4mHeader& header = reader.header();
-  facts.rate_hz =
-      static_cast<double>(header.rate_numerator) / static_cast<double>(header.rate_denominator);
+  if (header.rate_numerator > 0) {
+    facts.rate_hz =
+        static_cast<double>(header.rate_numerator) / static_cast<double>(header.rate_denominator);
+  }
   switch (header.interlacing) {
     case drivers::Y4mInterlacing::kEvenFirst: facts.scan = core::Scan::kEvenFirst; break;
     case drivers::Y4mInterlacing::kOddFirst: facts.scan = core::Scan::kOddFirst; break;
@@ -130,8 +130,7 @@ Result<void> read_header(const std::string& file, VideoFacts& facts, std::string
 
 Result<void> read_video_facts(const std::string& file, VideoFacts& facts, std::string& message) {
   facts = {};
-  const bool recording = is_recording(file);
-  if (recording) {
+  if (is_named_as_recording(file)) {
     TUBESIGHT_TRY(read_header(file, facts, message));
   }
   const std::vector<Still> stills = stills_of(std::vector{file}, {});
