@@ -15,7 +15,6 @@
 namespace tubesight::board {
 namespace {
 
-using core::calibration::CameraValues;
 using core::calibration::ConversionResidual;
 
 constexpr double kCell_mm = 0.01;
@@ -40,13 +39,6 @@ ExitStatus fail(const std::string& message, ExitStatus status) {
 }
 
 }  // namespace
-
-CameraValues values_of(const core::CameraSettings& camera) {
-  CameraValues values = CameraValues::Zero();
-  values.head<6>() << camera.focal_length_mm, camera.horizontal_scale, camera.center_px[0],
-      camera.center_px[1], camera.distortion_per_mm2, camera.distortion2_per_mm4;
-  return values;
-}
 
 CameraExport export_camera(const core::CameraSettings& camera, const std::string& serial,
                            bool opencv) {

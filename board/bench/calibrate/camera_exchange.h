@@ -4,12 +4,8 @@
 
 #include "board/bench/output/exit_status.h"
 #include "core/base/settings.h"
-#include "core/calibration/imaging.h"
 
 namespace tubesight::board {
-
-/// The parameters that calibrations find, of a camera's settings.
-[[nodiscard]] core::calibration::CameraValues values_of(const core::CameraSettings& camera);
 
 /// A calibrated camera as OpenCV or ROS take it.
 struct CameraExport {

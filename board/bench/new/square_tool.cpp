@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "board/bench/calibrate/camera_exchange.h"
+#include "board/bench/calibrate/camera_text.h"
 #include "core/calibration/imaging.h"
 #include "core/math/rotation.h"
 #include "core/pose/planar_pose.h"
