@@ -108,7 +108,8 @@ TEST(CalibrateCamera, DrawsWhatItFoundAlsoOfWhatIsRefused) {
   run = run_tubesight(folder, {"calibrate", "camera", "t.toml", "--picture", "near.csv"});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err, "--picture: 'near.csv' is also a points file, expected a place of its own\n");
-  run = run_tubesight(folder, {"calibrate", "import", "t.toml", "--picture", "x.png"});
+  folder.write("c.yaml", "image_width: 640\n");
+  run = run_tubesight(folder, {"calibrate", "import", "c.yaml", "--picture", "x.png"});
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err,
             "--picture: of a camera, a tool, a base, zones or links, expected one of these\n");

@@ -144,10 +144,11 @@ TEST(CalibrateTool, TellsEachMistakeOfItsArguments) {
             "--dock-offset-mm: '1', expected X,Y on the sheet\n");
   EXPECT_TRUE(told({"--dock", "40,60", "d.pgm", "--dock-offset-mm", "9.4,0"})
                   .starts_with("--dock-offset-mm: '9.4,0', expected a tip within the tube, "));
-  EXPECT_TRUE(told({"--dock", "40,60", "d.pgm", "--dock-height-mm", "nan"})
-                  .starts_with("tubesight: --dock-height-mm: Value nan not in range -500"));
+  EXPECT_TRUE(
+      told({"--dock", "40,60", "d.pgm", "--dock-height-mm", "nan"})
+          .starts_with("tubesight: calibrate: --dock-height-mm: Value nan not in range -500"));
   EXPECT_TRUE(told({"--dock", "40,60", "d.pgm", "--heading-deg", "nan"})
-                  .starts_with("tubesight: --heading-deg: Value nan not in range -360"));
+                  .starts_with("tubesight: calibrate: --heading-deg: Value nan not in range -360"));
   EXPECT_EQ(told({"--dock", "40,60", "d.pgm", "--start", "1,2,3,4", "--start", "1,2,3,4"}),
             "--start: 2 for 1 dockings and checks, expected one for all or one for each\n");
   EXPECT_EQ(told({"--dock", "40,60", "absent.pgm"}),

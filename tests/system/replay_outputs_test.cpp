@@ -60,7 +60,8 @@ TEST(ReplayOutputs, NeedAName) {
     const ProgramRun run = tiny.replay({option, ""});
 
     EXPECT_EQ(run.status, 2) << option;
-    EXPECT_NE(run.err.find(std::string(option) + ": is empty, expected "), std::string::npos)
+    EXPECT_NE(run.err.find(std::string(option) + ": its value is empty, expected "),
+              std::string::npos)
         << run.err;
   }
 }
