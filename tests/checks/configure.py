@@ -31,7 +31,7 @@ CASES = [
      "there is no drivers/unknown/CMakeLists.txt", r".*"),
     ("a library that is not there", ["-DTUBESIGHT_BOARDS=bench",
                                     "-DCMAKE_DISABLE_FIND_PACKAGE_PNG=ON", WITHOUT_TESTS],
-     "drivers/files (needed by board/bench): PNG was not found on this machine; "
+     "drivers/files (needed by board/bench, drivers/ffmpeg): PNG was not found on this machine; "
      "Debian's package is libpng-dev", r".*"),
 ]
 

@@ -38,7 +38,7 @@ TEST_F(CampaignProgram, RefusesArgumentsThatMeanNothing) {
   expect_refused({"--moves", "0"}, "--moves");
   expect_refused({"--moves", "many"}, "--moves");
   expect_refused({"--hours", "-1"}, "--hours");
-  expect_refused({"--hours", "nan"}, "--hours: nan is no time");
+  expect_refused({"--hours", "nan"}, "--hours: Value nan not in range");
   expect_refused({"--moves", "1", "--jobs", "0"}, "--jobs");
   expect_refused({"--moves", "1", "--seed", "-4"}, "--seed");
   expect_refused({"--moves", "1", "--out", "a.toml"}, "--out goes with");
