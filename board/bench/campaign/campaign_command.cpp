@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -282,9 +281,6 @@ std::string why_arguments_contradict(const CampaignOptions& options) {
   if (tasks != 1) {
     return "tubesight campaign: expected a limit (--moves, --fields, --hours); or --merge; or "
            "--replay-move";
-  }
-  if (options.hours && std::isnan(*options.hours)) {
-    return "tubesight campaign: --hours: nan is no time, expected 0.000001 to 100000";
   }
   if (const std::string useless = limited ? "" : find_useless(options); !useless.empty()) {
     return "tubesight campaign: " + useless + " does not go with " +
