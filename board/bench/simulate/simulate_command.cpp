@@ -100,7 +100,8 @@ ExitStatus run_simulate(const SimulateOptions& options) {
       tell(files.message());
       return ExitStatus::kJobFailed;
     }
-    progress.update(ProgressLine::Clock::now(), delivered, field.field.mid_exposure);
+    progress.update(ProgressLine::Clock::now(), delivered, field.field.mid_exposure,
+                    static_cast<double>(field.slot + 1) / static_cast<double>(world->slots()));
   }
   progress.erase();
   if (!files.commit()) {
