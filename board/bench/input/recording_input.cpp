@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/ffmpeg/video_source.h"
+#include "drivers/ffmpeg/ffmpeg_decoder.h"
 #include "drivers/files/byte_source.h"
 
 namespace tubesight::board {
@@ -49,10 +49,10 @@ bool begins_as_y4m(const std::string& path) {
   return begin == kY4m || begin.starts_with(kXz);
 }
 
-Result<void> open_video(const std::string& path, std::unique_ptr<drivers::VideoSource>& source,
+Result<void> open_video(const std::string& path, std::unique_ptr<drivers::FfmpegDecoder>& source,
                         std::string& message) {
   std::string why;
-  auto opened = drivers::VideoSource::open(path, why);
+  auto opened = drivers::FfmpegDecoder::open(path, why);
   if (!opened) {
     message = path + ": cannot be read: " + why;
     return Unexpected(opened.error());
@@ -106,7 +106,7 @@ Result<void> feed(drivers::ReplayFrameGrabber& grabber, const std::string& recor
     }
     case RecordingKind::kVideo: break;
   }
-  std::unique_ptr<drivers::VideoSource> source;
+  std::unique_ptr<drivers::FfmpegDecoder> source;
   TUBESIGHT_TRY(open_video(recording, source, message));
   grabber.read_from(std::unique_ptr<drivers::StampedSource>(std::move(source)));
   return {};
@@ -126,7 +126,7 @@ Result<void> open_frames(drivers::Y4mReader& reader, const std::string& recordin
 
 Result<void> open_foreign_still(drivers::Y4mReader& reader, const std::string& still,
                                 std::string& message) {
-  std::unique_ptr<drivers::VideoSource> source;
+  std::unique_ptr<drivers::FfmpegDecoder> source;
   TUBESIGHT_TRY(open_video(still, source, message));
   const auto opened = reader.open(std::move(source), still);
   if (!opened) {

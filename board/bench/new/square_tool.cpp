@@ -21,7 +21,7 @@ core::pose::PointPairList pairs_of(const core::CameraSettings& camera,
   const core::calibration::Sensor sensor = core::calibration::sensor_of(camera);
   const core::calibration::CameraValues values = values_of(camera);
   core::pose::PointPairList pairs;
-  for (const LatticePlace& place : lattice.places) {
+  for (const MeasuredPlace& place : lattice.places) {
     const auto from_middle = core::tubesheet::move_mm(sheet, place.from_middle);
     core::pose::PointPair pair;
     pair.object_mm = {from_middle[0], from_middle[1], 0.0};

@@ -14,7 +14,7 @@
 namespace tubesight::board {
 
 /// A tube-end whose outline was measured.
-struct LatticePlace {
+struct MeasuredPlace {
   core::TubeAddress from_middle;                    ///< rows and columns from that in the middle
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< the image of its centre
 };
@@ -30,9 +30,9 @@ struct LatticeFacts {
   Eigen::Vector2d next_column_px = Eigen::Vector2d::Zero();
   double diameter_px = 0.0;  ///< of the element in the middle, along its longer axis
   // In the lattice's own plane, as if seen straight on:
-  double angle_deg = 0.0;            ///< between rows and columns
-  double diameter_share = 0.0;       ///< the diameter as a share of the shorter step
-  std::vector<LatticePlace> places;  ///< all that stand clear
+  double angle_deg = 0.0;             ///< between rows and columns
+  double diameter_share = 0.0;        ///< the diameter as a share of the shorter step
+  std::vector<MeasuredPlace> places;  ///< all that stand clear
 };
 
 /// What a video tells of itself.

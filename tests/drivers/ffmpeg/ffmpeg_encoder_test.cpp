@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/ffmpeg/video_source.h"
+#include "drivers/ffmpeg/ffmpeg_decoder.h"
 #include "drivers/files/y4m_reader.h"
 #include "tests/support/temporary_folder.h"
 
@@ -51,7 +51,7 @@ TEST(FfmpegEncoder, WritesEveryFrameOfAnOddSize) {
     ASSERT_TRUE(encoder.commit()) << encoder.message();
 
     std::string message;
-    auto source = VideoSource::open(folder.path(name), message);
+    auto source = FfmpegDecoder::open(folder.path(name), message);
     ASSERT_TRUE(source) << message;
     Y4mReader reader;
     ASSERT_TRUE(reader.open(std::move(*source), "v")) << reader.message();

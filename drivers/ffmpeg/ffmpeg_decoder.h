@@ -20,13 +20,13 @@ namespace tubesight::drivers {
 /// where the video has more than 8; frames are neither doubled nor dropped to even out the rate.
 /// The first error in decoding ends it: what a decoder makes up in place of damaged pictures is not
 /// delivered.
-class VideoSource final : public StampedSource {
+class FfmpegDecoder final : public StampedSource {
  public:
   /// Starts to read the file `path`, whatever its name looks like. Errors: kUnsupported ffmpeg is
   /// not installed, kIo the file cannot be read or ffmpeg not be started; `message` says why
   /// without the file's name.
-  [[nodiscard]] static core::Result<std::unique_ptr<VideoSource>> open(const std::string& path,
-                                                                       std::string& message);
+  [[nodiscard]] static core::Result<std::unique_ptr<FfmpegDecoder>> open(const std::string& path,
+                                                                         std::string& message);
 
   /// Beside the errors of the interface: kDisconnected ffmpeg reported an error.
   [[nodiscard]] core::Result<std::size_t> read(std::span<std::byte> into) override;
@@ -35,7 +35,7 @@ class VideoSource final : public StampedSource {
   [[nodiscard]] std::optional<FrameStamp> next_stamp() override;
 
  private:
-  VideoSource() = default;
+  FfmpegDecoder() = default;
 
   enum class Awaited : unsigned char { kPicture, kNotes, kEnd };
   bool wait_for(Awaited what);

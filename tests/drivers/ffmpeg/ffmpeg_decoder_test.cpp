@@ -1,4 +1,4 @@
-#include "drivers/ffmpeg/video_source.h"
+#include "drivers/ffmpeg/ffmpeg_decoder.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -37,12 +37,12 @@ struct Read {
 
 Read read_video(const std::string& path) {
   Read read;
-  auto source = VideoSource::open(path, read.message);
+  auto source = FfmpegDecoder::open(path, read.message);
   if (!source) {
     read.end = source.error();
     return read;
   }
-  VideoSource* const stamps = source->get();
+  FfmpegDecoder* const stamps = source->get();
   Y4mReader reader;
   if (const auto opened = reader.open(std::move(*source), "v"); !opened) {
     read.end = opened.error();
@@ -83,14 +83,14 @@ void expect_noise(const Read& read) {
   }
 }
 
-TEST(VideoSource, ReadsTheVeryPixelsOfALosslessVideoOfOddSize) {
+TEST(FfmpegDecoder, ReadsTheVeryPixelsOfALosslessVideoOfOddSize) {
   const TemporaryFolder folder;
   run_ffmpeg(folder, std::string(kNoise) + "-c:v ffv1 v.mkv");
 
   expect_noise(read_video(folder.path("v.mkv")));
 }
 
-TEST(VideoSource, GivesTheUpperBitsOfDeepPixels) {
+TEST(FfmpegDecoder, GivesTheUpperBitsOfDeepPixels) {
   const TemporaryFolder folder;
   for (const char* const deep : {"gray10le", "gray12le", "gray16le"}) {
     SCOPED_TRACE(deep);
@@ -103,7 +103,7 @@ TEST(VideoSource, GivesTheUpperBitsOfDeepPixels) {
   }
 }
 
-TEST(VideoSource, TellsStampsOfAVariableRateAndNeitherDoublesNorDrops) {
+TEST(FfmpegDecoder, TellsStampsOfAVariableRateAndNeitherDoublesNorDrops) {
   const TemporaryFolder folder;
   // The third frame and those behind it come two periods late.
   run_ffmpeg(folder, std::string(kNoise) +
@@ -125,7 +125,7 @@ TEST(VideoSource, TellsStampsOfAVariableRateAndNeitherDoublesNorDrops) {
   EXPECT_NEAR(times[4] - times[3], 0.04, 0.0011);
 }
 
-TEST(VideoSource, TellsInterlacedFramesByTheHeader) {
+TEST(FfmpegDecoder, TellsInterlacedFramesByTheHeader) {
   const TemporaryFolder folder;
   run_ffmpeg(folder,
              "-f lavfi -i testsrc2=s=64x48:r=25 -frames:v 3 -vf setfield=tff -flags +ildct "
@@ -136,7 +136,7 @@ TEST(VideoSource, TellsInterlacedFramesByTheHeader) {
   EXPECT_EQ(read_video(folder.path("p.mpg")).header.interlacing, Y4mInterlacing::kProgressive);
 }
 
-TEST(VideoSource, TakesANameForNothingButAName) {
+TEST(FfmpegDecoder, TakesANameForNothingButAName) {
   const TemporaryFolder folder;
   run_ffmpeg(folder, std::string(kNoise) + "-c:v ffv1 v.mkv");
   const std::filesystem::path before = std::filesystem::current_path();
@@ -151,7 +151,7 @@ TEST(VideoSource, TakesANameForNothingButAName) {
   std::filesystem::current_path(before);
 }
 
-TEST(VideoSource, SaysWhatFfmpegSaid) {
+TEST(FfmpegDecoder, SaysWhatFfmpegSaid) {
   const TemporaryFolder folder;
   folder.write("no.mp4", "this is no video, whatever its name says\n");
 
@@ -161,7 +161,7 @@ TEST(VideoSource, SaysWhatFfmpegSaid) {
   EXPECT_EQ(read.message, "v: cannot be read: ffmpeg: Invalid data found when processing input");
 }
 
-TEST(VideoSource, DeliversWhatComesBeforeDamageAndSaysSo) {
+TEST(FfmpegDecoder, DeliversWhatComesBeforeDamageAndSaysSo) {
   const TemporaryFolder folder;
   run_ffmpeg(folder, std::string(kNoise) + "-c:v mjpeg -q:v 2 -pix_fmt yuvj420p v.avi");
   std::string video = folder.read("v.avi");
@@ -185,24 +185,24 @@ TEST(VideoSource, DeliversWhatComesBeforeDamageAndSaysSo) {
       << read.message;
 }
 
-TEST(VideoSource, TellsThatAFileIsNotThere) {
+TEST(FfmpegDecoder, TellsThatAFileIsNotThere) {
   std::string message;
 
-  const auto source = VideoSource::open("/no/such/file", message);
+  const auto source = FfmpegDecoder::open("/no/such/file", message);
 
   ASSERT_FALSE(source);
   EXPECT_EQ(source.error(), Error::kIo);
   EXPECT_EQ(message, "No such file or directory");
 }
 
-TEST(VideoSource, NamesThePackageWhereFfmpegIsMissing) {
+TEST(FfmpegDecoder, NamesThePackageWhereFfmpegIsMissing) {
   const TemporaryFolder folder;
   folder.write("v.mp4", "x");
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path("").c_str(), 1);
   std::string message;
 
-  const auto source = VideoSource::open(folder.path("v.mp4"), message);
+  const auto source = FfmpegDecoder::open(folder.path("v.mp4"), message);
 
   ::setenv("PATH", path.c_str(), 1);
   ASSERT_FALSE(source);
@@ -210,12 +210,12 @@ TEST(VideoSource, NamesThePackageWhereFfmpegIsMissing) {
   EXPECT_EQ(message, "ffmpeg is not installed, expected the package ffmpeg (apt install ffmpeg)");
 }
 
-TEST(VideoSource, LeavesNoProcessBehindWhenGivenUp) {
+TEST(FfmpegDecoder, LeavesNoProcessBehindWhenGivenUp) {
   const TemporaryFolder folder;
   run_ffmpeg(folder, "-f lavfi -i testsrc2=s=320x240:r=25 -frames:v 100 -c:v mjpeg v.avi");
   std::string message;
   {
-    auto source = VideoSource::open(folder.path("v.avi"), message);
+    auto source = FfmpegDecoder::open(folder.path("v.avi"), message);
     ASSERT_TRUE(source) << message;
     std::vector<std::byte> some(1000);
     ASSERT_TRUE((*source)->read(some));

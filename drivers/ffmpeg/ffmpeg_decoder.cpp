@@ -1,4 +1,4 @@
-#include "drivers/ffmpeg/video_source.h"
+#include "drivers/ffmpeg/ffmpeg_decoder.h"
 
 #include <array>
 #include <cerrno>
@@ -67,9 +67,9 @@ bool drain(int descriptor, Take take) {
 
 }  // namespace
 
-Result<std::unique_ptr<VideoSource>> VideoSource::open(const std::string& path,
-                                                       std::string& message) {
-  std::unique_ptr<VideoSource> source(new VideoSource);
+Result<std::unique_ptr<FfmpegDecoder>> FfmpegDecoder::open(const std::string& path,
+                                                           std::string& message) {
+  std::unique_ptr<FfmpegDecoder> source(new FfmpegDecoder);
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) {
     message = std::strerror(errno);
@@ -90,7 +90,7 @@ Result<std::unique_ptr<VideoSource>> VideoSource::open(const std::string& path,
 
 /// Takes words and stamps as they come, until there is something of what is awaited; false: not in
 /// time, or never.
-bool VideoSource::wait_for(Awaited what) {
+bool FfmpegDecoder::wait_for(Awaited what) {
   while (true) {
     if (what == Awaited::kNotes && (stamps_.ready() || !notes_open_)) {
       return stamps_.ready();
@@ -123,7 +123,7 @@ bool VideoSource::wait_for(Awaited what) {
   }
 }
 
-Result<std::size_t> VideoSource::read(std::span<std::byte> into) {
+Result<std::size_t> FfmpegDecoder::read(std::span<std::byte> into) {
   if (ended_) {
     return message_.empty() ? Result<std::size_t>(std::size_t{0})
                             : Unexpected(Error::kDisconnected);
@@ -144,7 +144,7 @@ Result<std::size_t> VideoSource::read(std::span<std::byte> into) {
 }
 
 /// At the end of the pictures: whether they are all.
-Result<std::size_t> VideoSource::finish() {
+Result<std::size_t> FfmpegDecoder::finish() {
   ended_ = true;
   static_cast<void>(wait_for(Awaited::kEnd));
   const int status = ffmpeg_.wait();
@@ -156,7 +156,7 @@ Result<std::size_t> VideoSource::finish() {
   return Unexpected(Error::kDisconnected);
 }
 
-std::optional<FrameStamp> VideoSource::next_stamp() {
+std::optional<FrameStamp> FfmpegDecoder::next_stamp() {
   return wait_for(Awaited::kNotes) ? stamps_.next() : std::nullopt;
 }
 
