@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+
+#include "board/bench/input/recording_input.h"
+#include "drivers/files/small_letters.h"
 
 namespace tubesight::board {
 namespace {
@@ -35,10 +37,6 @@ struct Ending {
   FileKind kind;
 };
 constexpr std::array kEndings = {
-    Ending{".y4m", FileKind::kRecording},   Ending{".y4m.xz", FileKind::kRecording},
-    Ending{".mp4", FileKind::kRecording},   Ending{".mov", FileKind::kRecording},
-    Ending{".mkv", FileKind::kRecording},   Ending{".avi", FileKind::kRecording},
-    Ending{".webm", FileKind::kRecording},  Ending{".mpg", FileKind::kRecording},
     Ending{".png", FileKind::kPicture},     Ending{".pgm", FileKind::kPicture},
     Ending{".jpg", FileKind::kPicture},     Ending{".jpeg", FileKind::kPicture},
     Ending{".tif", FileKind::kPicture},     Ending{".tiff", FileKind::kPicture},
@@ -47,9 +45,11 @@ constexpr std::array kEndings = {
     Ending{".toml", FileKind::kSettings},
 };
 
-FileKind kind_of_name(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+FileKind kind_of_name(std::string_view file) {
+  if (is_named_as_recording(file)) {
+    return FileKind::kRecording;
+  }
+  const std::string name = drivers::small_letters(file);
   for (const Ending& ending : kEndings) {
     if (name.ends_with(ending.text)) {
       return ending.kind;

@@ -1,24 +1,15 @@
 #include "board/bench/nearest_word.h"
 
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
+#include "drivers/files/small_letters.h"
+
 namespace tubesight::board {
-namespace {
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return result;
-}
-
-}  // namespace
 
 std::size_t spelling_distance(std::string_view a, std::string_view b) {
-  const std::string from = lower(a);
-  const std::string to = lower(b);
+  const std::string from = drivers::small_letters(a);
+  const std::string to = drivers::small_letters(b);
   // Row i: the distances of the first i letters of `from` from each beginning of `to`.
   std::vector<std::size_t> two_before(to.size() + 1);
   std::vector<std::size_t> before(to.size() + 1);
@@ -54,7 +45,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> wor
       nearest = candidate;
       least = distance;
     }
-    if (word.size() >= kFewestLetters && lower(candidate).starts_with(lower(word))) {
+    if (word.size() >= kFewestLetters &&
+        drivers::small_letters(candidate).starts_with(drivers::small_letters(word))) {
       begun = candidate;
       ++beginnings;
     }

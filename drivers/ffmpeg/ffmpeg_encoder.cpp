@@ -1,6 +1,5 @@
 #include "drivers/ffmpeg/ffmpeg_encoder.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -13,6 +12,7 @@
 
 #include "drivers/ffmpeg/ffmpeg_words.h"
 #include "drivers/files/commit_together.h"
+#include "drivers/files/small_letters.h"
 
 namespace tubesight::drivers {
 namespace {
@@ -33,12 +33,9 @@ constexpr std::array kContainers = {
 };
 
 const Container* container_of(std::string_view path) {
-  const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+  const std::string name = small_letters(path);
   for (const Container& container : kContainers) {
-    if (path.size() > container.ending.size() &&
-        std::equal(container.ending.begin(), container.ending.end(),
-                   path.end() - static_cast<std::ptrdiff_t>(container.ending.size()),
-                   [&](char b, char a) { return same(a, b); })) {
+    if (name.size() > container.ending.size() && name.ends_with(container.ending)) {
       return &container;
     }
   }

@@ -11,6 +11,7 @@
 
 #include "drivers/ffmpeg/ffmpeg_decoder.h"
 #include "drivers/files/byte_source.h"
+#include "drivers/files/small_letters.h"
 
 namespace tubesight::board {
 namespace {
@@ -86,10 +87,7 @@ RecordingKind kind_of_recording(const std::string& recording) {
 }
 
 bool is_named_as_recording(std::string_view file) {
-  std::string name(file);
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string name = drivers::small_letters(file);
   return std::any_of(kVideoEndings.begin(), kVideoEndings.end(),
                      [&](std::string_view ending) { return name.ends_with(ending); });
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "board/bench/input/recording_input.h"
+#include "drivers/files/small_letters.h"
 
 namespace tubesight::board {
 namespace {
@@ -49,10 +50,7 @@ bool goes_to_standard_output(std::initializer_list<std::string> paths) {
 }
 
 std::string ending_of(const std::string& path) {
-  std::string name = fs::path(path).filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
+  const std::string name = drivers::small_letters(fs::path(path).filename().string());
   constexpr std::string_view kCompressed = ".y4m.xz";
   if (name.ends_with(kCompressed)) {
     return std::string(kCompressed);
