@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "board/bench/argument_files.h"
+#include "board/bench/calibrate_arguments.h"
 #include "board/bench/nearest_word.h"
 
 namespace tubesight::board {
@@ -125,9 +126,7 @@ std::string find_swapped_words(const CLI::App& command) {
   if (what == nullptr || file == nullptr || what->count() == 0) {
     return {};
   }
-  constexpr const char* kWords[] = {"camera", "tool",   "base",    "zones",
-                                    "links",  "import", "template"};
-  const std::vector<std::string> words(std::begin(kWords), std::end(kWords));
+  const std::vector<std::string> words(kCalibrations.begin(), kCalibrations.end());
   const auto is_word = [&](const std::string& text) {
     return std::find(words.begin(), words.end(), text) != words.end();
   };

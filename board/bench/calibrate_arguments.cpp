@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -208,7 +209,7 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
                    "What is calibrated: camera, tool or base, a base's zones, or an arm's links; "
                    "import: a camera of OpenCV or ROS; template: nothing, but dots to print")
       ->required()
-      ->check(CLI::IsMember({"camera", "tool", "base", "zones", "links", "import", "template"}));
+      ->check(CLI::IsMember(std::vector<std::string>(kCalibrations.begin(), kCalibrations.end())));
   calibrate
       ->add_option(
           "FILE", arguments.file,

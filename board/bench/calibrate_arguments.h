@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "board/bench/calibrate/base_command.h"
@@ -13,6 +14,10 @@ class App;
 }
 
 namespace tubesight::board {
+
+/// What `calibrate` is asked for.
+inline constexpr std::array kCalibrations = {"camera", "tool",   "base",    "zones",
+                                             "links",  "import", "template"};
 
 /// The arguments of `calibrate`, some of which belong to one thing alone.
 struct CalibrateArguments {

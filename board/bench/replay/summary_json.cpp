@@ -8,6 +8,7 @@
 
 #include "core/base/names.h"
 #include "core/base/words.h"
+#include "drivers/control/json_line.h"
 #include "drivers/files/decimal.h"
 
 namespace tubesight::board {
@@ -17,6 +18,7 @@ using core::FieldTime;
 using core::Reason;
 using core::TrackState;
 using drivers::append_decimal;
+using drivers::json_string;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -28,21 +30,6 @@ std::string seconds(FieldTime time) {
 
 std::string whole(std::int64_t value) { return std::to_string(value); }
 
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20U) {
-      drivers::print(out, "\\u%04x", static_cast<unsigned int>(static_cast<unsigned char>(c)));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string address(core::TubeAddress tube) {
   return "[" + whole(tube.row) + ", " + whole(tube.column) + "]";
 }
@@ -52,7 +39,7 @@ using Members = std::vector<std::pair<std::string_view, std::string>>;
 std::string object(const Members& members) {
   std::string out = "{";
   for (const auto& [key, value] : members) {
-    out += (out.size() > 1 ? ", " : "") + quoted(key) + ": " + value;
+    out += (out.size() > 1 ? ", " : "") + json_string(key) + ": " + value;
   }
   return out + "}";
 }
@@ -98,7 +85,7 @@ std::string starts(const ReplayStatistics& statistics) {
     entries.push_back(
         object({{"at_s", seconds(start.at)},
                 {"taken", taken ? "true" : "false"},
-                {"reason", taken ? "null" : quoted(core::name_of(start.reply.refusal))}}));
+                {"reason", taken ? "null" : json_string(core::name_of(start.reply.refusal))}}));
   }
   return list(entries);
 }
@@ -108,7 +95,7 @@ std::string losses(const ReplayStatistics& statistics) {
   for (const auto& loss : statistics.losses()) {
     entries.push_back(object({{"at_s", seconds(loss.at)},
                               {"lasted_s", seconds(loss.lasted)},
-                              {"reason", quoted(core::name_of(loss.reason))}}));
+                              {"reason", json_string(core::name_of(loss.reason))}}));
   }
   return list(entries);
 }
@@ -127,9 +114,10 @@ std::string poses(const ReplayStatistics& statistics) {
   std::vector<std::string> entries;
   for (const auto& pose : statistics.poses()) {
     const bool good = pose.result.reason == core::PoseReason::kNone;
-    entries.push_back(object({{"at_s", seconds(pose.at)},
-                              {"reason", good ? "null" : quoted(core::name_of(pose.result.reason))},
-                              {"contradicted", pose.contradicted ? "true" : "false"}}));
+    entries.push_back(
+        object({{"at_s", seconds(pose.at)},
+                {"reason", good ? "null" : json_string(core::name_of(pose.result.reason))},
+                {"contradicted", pose.contradicted ? "true" : "false"}}));
   }
   return list(entries);
 }
@@ -194,7 +182,7 @@ std::string summary_json(const RecordingFacts& recording, const ReplayStatistics
   const bool moved = statistics.largest_speed_mm_s() >= 0.0;
   const Members members = {
       {"format", "1"},
-      {"recording", quoted(recording.name)},
+      {"recording", json_string(recording.name)},
       {"width_px", whole(recording.width_px)},
       {"height_px", whole(recording.height_px)},
       {"interlaced", recording.interlaced ? "true" : "false"},
@@ -220,7 +208,7 @@ std::string summary_json(const RecordingFacts& recording, const ReplayStatistics
   };
   std::string out = "{\n";
   for (std::size_t i = 0; i < members.size(); ++i) {
-    out += "  " + quoted(members[i].first) + ": " + members[i].second;
+    out += "  " + json_string(members[i].first) + ": " + members[i].second;
     out += i + 1 < members.size() ? ",\n" : "\n";
   }
   return out + "}\n";
