@@ -124,6 +124,14 @@ TEST_F(FixedTest, SumsSaturateAtBothBounds) {
   EXPECT_TRUE(take_overflow_flag());
   EXPECT_EQ((-bottom).raw(), kMax);
   EXPECT_TRUE(take_overflow_flag());
+  // The sum that overflows most, and the difference whose left side has no sign.
+  EXPECT_EQ((bottom + bottom).raw(), kMin);
+  EXPECT_TRUE(take_overflow_flag());
+  EXPECT_EQ((Q16{} - bottom).raw(), kMax);
+  EXPECT_TRUE(take_overflow_flag());
+  EXPECT_EQ((Q16::from_raw(-1) - bottom).raw(), kMax);
+  EXPECT_EQ((bottom - Q16{}).raw(), kMin);
+  EXPECT_FALSE(take_overflow_flag());
 }
 
 TEST_F(FixedTest, TheFlagIsStickyAndTakenOnce) {
@@ -226,6 +234,21 @@ TEST(FixedSquareRoot, IntegerRootsAreTheFloor) {
               {0xffffffffffffffff, 4294967295}};
   for (const auto& row : rows) {
     EXPECT_EQ(integer_square_root(row.value), row.root) << row.value;
+  }
+}
+
+TEST(FixedSquareRoot, IntegerRootsAreRightOnEitherSideOfEverySquare) {
+  const auto right_around = [](std::uint64_t root) {
+    const std::uint64_t square = root * root;
+    EXPECT_EQ(integer_square_root(square - 1), root - 1) << root;
+    EXPECT_EQ(integer_square_root(square), root) << root;
+    EXPECT_EQ(integer_square_root(square + 2 * root), root) << root;  // the last before the next
+  };
+  for (std::uint64_t root = 1; root < 70'000; ++root) {
+    right_around(root);
+  }
+  for (std::uint64_t root = 70'000; root < 0xffffffff; root += root / 5'000) {
+    right_around(root);
   }
 }
 
