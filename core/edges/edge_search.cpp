@@ -9,12 +9,19 @@ namespace {
 // A rise has passed its peak when the gradient did not grow for so many steps; one is noise.
 constexpr std::int32_t kDecliningSteps = 2;
 
-// How a walk reads pixels. The usual walks along a line have their offsets known to the compiler,
-// which halves their cost.
+// How a walk reads pixels. The usual walks have their taps known to the compiler, and those along a
+// line their steps, too, which halves their cost.
 struct AnySteps {
   std::ptrdiff_t side = 0;
   std::ptrdiff_t step = 1;  // outwards
   std::int32_t taps = 0;
+};
+
+template <int kTaps>
+struct KnownTaps {
+  std::ptrdiff_t side = 0;
+  std::ptrdiff_t step = 1;
+  static constexpr std::int32_t taps = kTaps;
 };
 
 template <int kStep, int kTaps>
@@ -73,19 +80,26 @@ std::int32_t gradient(const EdgePath& path, std::int32_t position, std::int32_t 
 EdgePeak find_edge(const EdgePath& path, const SearchRange& range) {
   const std::uint8_t* first = path.origin + range.first * path.step;
   const std::ptrdiff_t step = path.step * range.direction;
-  const auto any = [&] { return walk(AnySteps{path.side, step, range.taps}, first, range); };
-  const auto known = [&]<int kStep>() {
-    return walk(KnownSteps<kStep, kHorizontalTaps>{path.side}, first, range);
+  const auto known = [&]<int kStep, int kTaps>() {
+    return walk(KnownSteps<kStep, kTaps>{path.side}, first, range);
+  };
+  const auto along_line = [&]<int kTaps>() {
+    switch (step) {
+      case 1: return known.template operator()<1, kTaps>();
+      case -1: return known.template operator()<-1, kTaps>();
+      case 2: return known.template operator()<2, kTaps>();
+      case -2: return known.template operator()<-2, kTaps>();
+      case 3: return known.template operator()<3, kTaps>();
+      case -3: return known.template operator()<-3, kTaps>();
+      default: return walk(KnownTaps<kTaps>{path.side, step}, first, range);
+    }
   };
   EdgePeak peak;
-  switch (range.taps == kHorizontalTaps ? step : 0) {
-    case 1: peak = known.template operator()<1>(); break;
-    case -1: peak = known.template operator()<-1>(); break;
-    case 2: peak = known.template operator()<2>(); break;
-    case -2: peak = known.template operator()<-2>(); break;
-    case 3: peak = known.template operator()<3>(); break;
-    case -3: peak = known.template operator()<-3>(); break;
-    default: peak = any(); break;
+  switch (range.taps) {
+    case kHorizontalTaps: peak = along_line.template operator()<kHorizontalTaps>(); break;
+    case kFilletTaps: peak = along_line.template operator()<kFilletTaps>(); break;
+    case kVerticalTaps: peak = walk(KnownTaps<kVerticalTaps>{path.side, step}, first, range); break;
+    default: peak = walk(AnySteps{path.side, step, range.taps}, first, range); break;
   }
   peak.position = range.first + range.direction * peak.position;
   return peak;
@@ -93,7 +107,32 @@ EdgePeak find_edge(const EdgePath& path, const SearchRange& range) {
 
 namespace {
 
-// `stride` is a number, or 1 as a constant.
+using OneByOne = std::integral_constant<std::int32_t, 1>;
+
+// Every `stride`-th pair of neighbours of the first `pairs` from `p` on; zero for none. `stride` is
+// a number, or 1 as a constant.
+template <typename Stride>
+std::int32_t brightest_pair(const std::uint8_t* p, std::ptrdiff_t step, std::int32_t pairs,
+                            Stride stride) {
+  std::int32_t most = 0;
+  if constexpr (std::is_same_v<Stride, OneByOne>) {
+    // Each pixel is read once.
+    std::int32_t before = *p;
+    for (std::int32_t i = 0; i < pairs; ++i) {
+      p += step;
+      const std::int32_t here = *p;
+      most = std::max(most, before + here);
+      before = here;
+    }
+  } else {
+    for (std::int32_t i = 0; i < pairs; i += stride) {
+      most = std::max(most, p[i * step] + p[(i + 1) * step]);
+    }
+  }
+  return most;
+}
+
+// `stride` as above.
 template <typename Stride>
 Edge refine(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
             const EdgeReach& reach, std::int32_t least_contrast, Stride stride) {
@@ -103,33 +142,29 @@ Edge refine(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
 
   // Levels in halves of a grey value: two pixels each.
   const std::int32_t dark2 = at(-reach.dark) + at(-reach.dark - 1);
-  std::int32_t bright2 = 0;
-  for (std::int32_t i = 1; i <= reach.bright; i += stride) {
-    bright2 = std::max(bright2, at(i) + at(i + 1));
-  }
+  const std::int32_t bright2 = brightest_pair(p + step, step, reach.bright, stride);
   const std::int32_t contrast2 = bright2 - dark2;
   if (contrast2 < 2 * least_contrast) {
     return {};
   }
   const std::int32_t middle4 = dark2 + bright2;
+  const std::int32_t least = (middle4 + 3) / 4;  // the first level that is not below the middle
   std::int32_t offset = -reach.dark;
-  if (4 * at(offset) >= middle4) {
+  if (at(offset) >= least) {
     return {};  // bright where the inside of the tube should be
   }
-  while (4 * at(offset + stride) < middle4) {
+  while (at(offset + stride) < least) {
     offset += stride;
     if (offset > reach.bright + 1) {
       return {};
     }
   }
   // Within this stride: the first two neighbours that the middle lies between.
-  std::int32_t before = 4 * at(offset);
-  std::int32_t here = 4 * at(offset + 1);
-  while (here < middle4) {
-    before = here;
+  while (at(offset + 1) < least) {
     ++offset;
-    here = 4 * at(offset + 1);
   }
+  const std::int32_t before = 4 * at(offset);
+  const std::int32_t here = 4 * at(offset + 1);
   const std::int32_t share_q16 = ((middle4 - before) * 65536) / (here - before);
   const std::int32_t along_q16 = (offset * 65536) + share_q16;
   return {true, peak.position * 65536 + direction * along_q16, contrast2 / 2};
@@ -139,8 +174,7 @@ Edge refine(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
 
 Edge refine_edge(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,
                  const EdgeReach& reach, std::int32_t least_contrast) {
-  constexpr std::integral_constant<std::int32_t, 1> kEach;
-  return refine(path, peak, direction, reach, least_contrast, kEach);
+  return refine(path, peak, direction, reach, least_contrast, OneByOne{});
 }
 
 Edge refine_edge_coarsely(const EdgePath& path, const EdgePeak& peak, std::int32_t direction,

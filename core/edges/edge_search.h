@@ -11,6 +11,10 @@ inline constexpr std::int32_t kHorizontalTaps = 6;
 /// Pixels that the vertical operator sums ahead and behind; it reads one field [Fallon eq. 6.2].
 inline constexpr std::int32_t kVerticalTaps = 3;
 
+/// Taps along a line where welds are fillets: the rim is bright for a few pixels only, with its
+/// shadow behind, and six pixels ahead would average the two.
+inline constexpr std::int32_t kFilletTaps = 4;
+
 /// The gradient at one position of a path: `Taps` pairs ahead minus `Taps` pairs behind, ahead
 /// being the direction of growing positions if `direction` is 1 and the other one if it is -1.
 ///

@@ -49,15 +49,11 @@ constexpr std::int32_t kLeastHalfHeightPx = 7;
 
 constexpr std::int32_t kNearlyAll = 13;  // of the pixels of a cross-hair
 
-// The rim of a fillet weld is bright for a few pixels only, with its shadow behind: six pixels
-// ahead would average the two.
-constexpr std::int32_t kFilletTaps = 4;
-
 template <Scalar S>
 MeasurementBounds bounds_of(const TrackingModel<S>& model) {
   MeasurementBounds bounds;
   bounds.thin_rim = model.weld == Weld::kFillet;
-  bounds.taps = bounds.thin_rim ? kFilletTaps : edges::kHorizontalTaps;
+  bounds.taps = bounds.thin_rim ? edges::kFilletTaps : edges::kHorizontalTaps;
   return bounds;
 }
 
