@@ -65,6 +65,12 @@ void NormalEquations<S>::add(const PoseVector<S>& row, Mm<S> value, Mm<S> weight
   }
 }
 
+template <Scalar S>
+void NormalEquations<S>::add(int unknown, Mm<S> value, Mm<S> weight) {
+  matrix_[at(unknown, unknown)] += product(weight, Mm<S>(1));
+  value_[static_cast<std::size_t>(unknown)] += product(weight, value);
+}
+
 // A += J^T W J, b += J^T W r with J = [j_u; j_v], W = [uu uv; uv vv], r = (u, v): first W J, then
 // its product with J^T.
 template <Scalar S>

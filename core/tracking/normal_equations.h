@@ -27,6 +27,9 @@ class NormalEquations {
   /// Adds weight * (row^T row) and weight * row * value.
   void add(const PoseVector<S>& row, Mm<S> value, Mm<S> weight);
 
+  /// The same for a row that is 1 for one unknown and 0 for the others: a sixth of the cost.
+  void add(int unknown, Mm<S> value, Mm<S> weight);
+
   /// A pair of rows whose values have the information matrix [uu uv; uv vv].
   struct Pair {
     PoseVector<S> row_u{};

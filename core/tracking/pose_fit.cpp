@@ -107,10 +107,8 @@ void add_prior(const TrackingModel<S>& model, const PosePrior<S>& prior, const S
     const M lean_scaled = times(lean, constant<M>(128.0));
     equations.add(row, -lean_scaled, prior.lean_weight);
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    PoseVector<S> row{};
-    row[i] = M(1);
-    equations.add(row, -moved[i], prior.turn_weight);
+  for (int turn = 0; turn < 3; ++turn) {
+    equations.add(turn, -moved[static_cast<std::size_t>(turn)], prior.turn_weight);
   }
   const PoseVector<S> row{M{},
                           M{},

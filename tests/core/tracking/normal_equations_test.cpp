@@ -64,6 +64,25 @@ double error_of(const NormalEquations<S>& equations, const Vector6& expected) {
   return worst;
 }
 
+TYPED_TEST(NormalEquationsOf, TakesOneUnknownAloneAsItsRow) {
+  std::mt19937 random(22);
+  System<TypeParam> by_row;
+  System<TypeParam> alone;
+  for (int i = 0; i < 20; ++i) {
+    const Vector6 row = random_row(random, 4.0);
+    by_row.add(row, 0.25, 1.5);
+    alone.add(row, 0.25, 1.5);
+  }
+  for (int unknown = 0; unknown < 6; ++unknown) {
+    const double value = stepped(0.3 * unknown - 0.7);
+    by_row.add(Vector6::Unit(unknown), value, 2.25);
+    alone.equations.add(unknown, Mm<TypeParam>(value), Mm<TypeParam>(2.25));
+  }
+  ASSERT_TRUE(by_row.equations.factor());
+  ASSERT_TRUE(alone.equations.factor());
+  EXPECT_EQ(by_row.equations.solve(), alone.equations.solve());
+}
+
 TYPED_TEST(NormalEquationsOf, SolvesAsEigenDoes) {
   std::mt19937 random(21);
   std::uniform_real_distribution<double> any(-2.0, 2.0);
