@@ -127,6 +127,14 @@ target_compile_options(tubesight_warnings INTERFACE
 # at -O2 that is none.
 set(tubesight_core_warnings -Wnull-dereference)
 
+# What the box computes with: a twentieth fewer instructions a field than at -O2. All of core/, which shares a
+# precompiled header: what is inlined from it is of the header's level. A preset for haste or for a
+# debugger keeps its own.
+set(tubesight_core_optimisation)
+if("${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS_RELWITHDEBINFO}" MATCHES "^RelWithDebInfo (.* )?-O2")
+  set(tubesight_core_optimisation -O3)
+endif()
+
 # Release builds only: sanitizers enlarge every frame. The check `stack` reads the call graphs.
 set(tubesight_tracking_path_options)
 if(CMAKE_BUILD_TYPE MATCHES "^Rel" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -151,7 +159,7 @@ function(tubesight_add_precompiled_headers)
   endforeach()
   if(TARGET tubesight_precompiled_core)
     target_compile_options(tubesight_precompiled_core PRIVATE
-      -fno-exceptions -fno-rtti ${tubesight_core_warnings})
+      -fno-exceptions -fno-rtti ${tubesight_core_warnings} ${tubesight_core_optimisation})
   endif()
 endfunction()
 tubesight_add_precompiled_headers()
@@ -200,6 +208,9 @@ function(tubesight_add_library path)
     if(folder MATCHES "^(core|hal|drivers)(/|$)")
       target_compile_options(${target} PRIVATE
         -fno-exceptions -fno-rtti ${tubesight_core_warnings})
+    endif()
+    if(folder MATCHES "^core/")
+      target_compile_options(${target} PRIVATE ${tubesight_core_optimisation})
     endif()
   else()
     add_library(${target} INTERFACE)
