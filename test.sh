@@ -7,8 +7,7 @@
 #        ./test.sh STAGE...        some of them
 #
 #   format          clang-format finds nothing to change
-#   bench           optimised build, warnings are errors, every header compiled alone, all tests and
-#                   checks but those labelled `long`
+#   bench           optimised build, warnings are errors, all tests and checks but those labelled `long`
 #   bench-asan      the tests under the address and undefined-behaviour sanitizers, built by clang
 #   visionbox-qemu  arm64 build, its tests run under emulation, and those of the emulated board
 #   bench-fuzz      in the folder of bench-asan: a short run of each fuzzer
@@ -34,7 +33,7 @@ for stage in "${stages[@]}"; do
     format | bench | bench-asan | bench-fuzz | visionbox-qemu | bench-quick) ;;
     bench-long | bench-tidy | board-long | packages) ;;
     *)
-      echo "$0: unknown stage '$stage'; sed -n 2,21p $0 lists them" >&2
+      echo "$0: unknown stage '$stage'; sed -n 2,20p $0 lists them" >&2
       exit 2
       ;;
   esac
