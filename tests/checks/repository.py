@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The repository stands on its own: no path of somebody's machine, no package host, no large file.
+"""The repository stands on its own: no path of somebody's machine, no package host, no large file; what
+names its interpreter can be started.
 
 Usage: repository.py ROOT | repository.py --self-test
 """
@@ -50,6 +51,8 @@ def check(root):
         content = path.read_bytes()
         if b"\0" in content[:8192]:
             continue
+        if content.startswith(b"#!") and not os.access(path, os.X_OK):
+            problems.append(f"{name}: begins with #! and is not executable")
         for line_number, line in enumerate(content.decode("utf-8", "replace").splitlines(), 1):
             for pattern, what in FORBIDDEN:
                 match = pattern.search(line)
@@ -66,17 +69,20 @@ def self_test():
         "a.md": "in /ho" + "me/somebody/x\n",
         "b.cmake": "include(../sha" + "red/x)\n",
         "c.sh": "curl http://deb.deb" + "ian.org/x\n",
+        "d.py": "#!/usr/bin/env python3\n",
+        "e.py": "#!/usr/bin/env python3\n",
         "build/d.txt": "/ro" + "ot/x\n",
     }
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         plant(root, planted.items())
+        (root / "e.py").chmod(0o755)
         for number in range(7):
             path = root / f"tests/data/{number}.bin"
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(b"\0" * (4_500_001 if number == 0 else 4_000_000))
         found, _ = check(root)
-    expected = ["a.md:1:", "b.cmake:1:", "c.sh:1:", "tests/data/0.bin:", "tests/data:"]
+    expected = ["a.md:1:", "b.cmake:1:", "c.sh:1:", "d.py:", "tests/data/0.bin:", "tests/data:"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     wrong = [] if good else [f"expected {expected}, reported {found}"]
