@@ -32,6 +32,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
   ${here}/conffiles ${here}/postinst ${here}/prerm ${here}/postrm)
 # Whose cameras of GigE Vision and USB3 Vision are loaded when one is opened.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libaravis-0.8-0")
+# Reads videos and encodes overlays on a PC; no board needs it.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg")
 
 set(architecture_of_aarch64 arm64)
 set(architecture_of_arm armhf)
