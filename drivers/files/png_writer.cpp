@@ -27,18 +27,27 @@ class Palette {
  public:
   /// Reads the picture's colours and what each pixel has; false when they are too many. Greys come
   /// first and in order, so that numbers of neighbours differ as little as they do.
-  [[nodiscard]] bool read(const core::RgbImageView& rgb) {
-    std::array<bool, kMost> greys{};
+  [[nodiscard]] bool read(const core::RgbImageView& rgb, PngGreys what) {
+    Counts greys{};
     if (!collect(rgb, greys)) {
       return false;
+    }
+    std::array<bool, kMost> left_out{};
+    if (what == PngGreys::kNear) {
+      leave_out_rarest(greys, left_out);
     }
     std::array<std::uint8_t, kMost> number_of_grey{};
     std::vector<png_color> entries;
     for (std::size_t grey = 0; grey < kMost; ++grey) {
-      if (greys[grey]) {
+      if (greys[grey] > 0 && !left_out[grey]) {
         number_of_grey[grey] = static_cast<std::uint8_t>(entries.size());
         const auto value = static_cast<png_byte>(grey);
         entries.push_back({value, value, value});
+      }
+    }
+    for (std::size_t grey = 0; grey < kMost; ++grey) {
+      if (left_out[grey]) {
+        number_of_grey[grey] = number_of_grey[neighbour_of(grey, greys, left_out)];
       }
     }
     first_colour_ = entries.size();
@@ -57,19 +66,20 @@ class Palette {
  private:
   static constexpr std::size_t kMost = 256;
   static constexpr std::int32_t kChannels = 3;
+  using Counts = std::array<std::int32_t, kMost>;  ///< of pixels, by grey
 
   static bool is_grey(const std::uint8_t* pixel) {
     return pixel[0] == pixel[1] && pixel[1] == pixel[2];
   }
 
   /// The greys that there are, and the colours in the order in which they appear.
-  bool collect(const core::RgbImageView& rgb, std::array<bool, kMost>& greys) {
+  bool collect(const core::RgbImageView& rgb, Counts& greys) {
     entries_.clear();
     for (std::int32_t line = 0; line < rgb.height_px; ++line) {
       const std::uint8_t* pixel = rgb.pixels + std::ptrdiff_t{line} * rgb.stride_bytes;
       for (std::int32_t u = 0; u < rgb.width_px; ++u, pixel += kChannels) {
         if (is_grey(pixel)) {
-          greys[pixel[0]] = true;
+          ++greys[pixel[0]];
         } else if (find(pixel) == entries_.size()) {
           if (entries_.size() == kMost) {
             return false;
@@ -79,6 +89,41 @@ class Palette {
       }
     }
     return true;
+  }
+
+  /// The grey that stands for one that is left out: that one level away which stays, or `kMost`.
+  static std::size_t neighbour_of(std::size_t grey, const Counts& greys,
+                                  const std::array<bool, kMost>& left_out) {
+    for (const std::size_t near : {grey + 1, grey - 1}) {  // 0 - 1 is no grey
+      if (near < kMost && greys[near] > 0 && !left_out[near]) {
+        return near;
+      }
+    }
+    return kMost;
+  }
+
+  /// Leaves out as many greys as are too many beside the colours, the rarest first, each with a
+  /// neighbour that stays.
+  void leave_out_rarest(const Counts& greys, std::array<bool, kMost>& left_out) const {
+    std::vector<std::size_t> rarest;
+    for (std::size_t grey = 0; grey < kMost; ++grey) {
+      if (greys[grey] > 0) {
+        rarest.push_back(grey);
+      }
+    }
+    std::size_t colours = rarest.size() + entries_.size();
+    std::stable_sort(rarest.begin(), rarest.end(),
+                     [&](std::size_t a, std::size_t b) { return greys[a] < greys[b]; });
+    std::array<bool, kMost> stands_for_another{};
+    for (const std::size_t grey : rarest) {
+      const std::size_t near =
+          stands_for_another[grey] ? kMost : neighbour_of(grey, greys, left_out);
+      if (colours > kMost && near < kMost) {
+        left_out[grey] = true;
+        stands_for_another[near] = true;
+        --colours;
+      }
+    }
   }
 
   void number(const core::RgbImageView& rgb, const std::array<std::uint8_t, kMost>& of_grey) {
@@ -202,13 +247,13 @@ Result<void> write_png(const std::string& path, const core::ImageView& grey, std
   return write(path, output, message);
 }
 
-Result<void> write_png(const std::string& path, const core::RgbImageView& rgb,
-                       std::string& message) {
+Result<void> write_png(const std::string& path, const core::RgbImageView& rgb, std::string& message,
+                       PngGreys greys) {
   PngOutput output;
   output.width_px = rgb.width_px;
   output.height_px = rgb.height_px;
   Palette palette;
-  if (palette.read(rgb)) {
+  if (palette.read(rgb, greys)) {
     output.colour_type = PNG_COLOR_TYPE_PALETTE;
     output.palette = palette.entries();
     output.pixels = palette.numbers();

@@ -88,7 +88,7 @@ Result<void> PictureFolder::open(const drivers::Y4mHeader&, bool) {
 Result<void> PictureFolder::add(std::int64_t field, const core::RgbImageView& picture) {
   const drivers::CommitAlone into_the_folder;
   return drivers::write_png((fs::path(collecting_) / picture_name(field)).string(), picture,
-                            message_);
+                            message_, drivers::PngGreys::kNear);
 }
 
 Result<void> PictureFolder::commit() {

@@ -1,7 +1,11 @@
 #include "drivers/files/png_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -72,6 +76,46 @@ TEST(WritePng, KeepsEveryColourWhetherTheyAreFewOrMany) {
   for (const int count : {1, 2, 17, 255, 256, 257, 300, 1200}) {
     expect_kept(count);
   }
+}
+
+/// What was written so and read back, as luma.
+Pixels written_with_all_greys(PngGreys greys, Pixels pixels) {
+  const support::TemporaryFolder folder;
+  const auto width = static_cast<std::int32_t>(pixels.size() / 3);
+  GreyPicture picture;
+  std::string message;
+  EXPECT_TRUE(write_png(folder.path("a.png"),
+                        core::RgbImageView{pixels.data(), width, 1, 3 * width}, message, greys));
+  const std::string bytes = folder.read("a.png");
+  EXPECT_EQ(bytes.find("PLTE") != std::string::npos, greys == PngGreys::kNear);
+  EXPECT_TRUE(read_grey_picture(folder.path("a.png"), picture, message)) << message;
+  return picture.pixels;
+}
+
+TEST(WritePng, MovesTheRarestGreysByOneLevelWhereThatIsAllowed) {
+  Pixels pixels;
+  Pixels luma;
+  for (int grey = 0; grey < 256; ++grey) {
+    const auto count = static_cast<std::size_t>(std::min(2 * grey + 1, 31));
+    pixels.insert(pixels.end(), 3 * count, static_cast<std::uint8_t>(grey));
+    luma.insert(luma.end(), count, static_cast<std::uint8_t>(grey));
+  }
+  for (int colour = 0; colour < 8; ++colour) {
+    pixels.insert(pixels.end(), {static_cast<std::uint8_t>(200 + colour), 0, 0});
+    luma.push_back(static_cast<std::uint8_t>((299 * (200 + colour) + 500) / 1000));
+  }
+
+  EXPECT_EQ(written_with_all_greys(PngGreys::kExact, pixels), luma);
+  const Pixels near = written_with_all_greys(PngGreys::kNear, pixels);
+
+  ASSERT_EQ(near.size(), luma.size());
+  int moved = 0;
+  for (std::size_t i = 0; i < luma.size(); ++i) {
+    EXPECT_LE(std::abs(near[i] - luma[i]), 1) << i;
+    moved += near[i] == luma[i] ? 0 : 1;
+  }
+  // 0, 2, 4 ... 14 become 1, 3, 5 ... 15: each stands for one alone.
+  EXPECT_EQ(moved, 1 + 5 + 9 + 13 + 17 + 21 + 25 + 29);
 }
 
 TEST(WritePng, TellsAFullDisk) {
