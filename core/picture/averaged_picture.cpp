@@ -80,4 +80,15 @@ Result<AveragedPicture> PictureAverage::finish() {
   return AveragedPicture{buffer_.data(), width_px_, height_px_};
 }
 
+Result<AveragedPicture> average_of_one(const ImageView& picture, std::span<std::uint16_t> buffer) {
+  if (picture.width_px < 1 || picture.height_px < 2 ||
+      buffer.size() < static_cast<std::size_t>(picture.width_px) *
+                          static_cast<std::size_t>(picture.height_px)) {
+    return Unexpected(Error::kInvalidArgument);
+  }
+  PictureAverage average(buffer, picture.width_px, picture.height_px);
+  TUBESIGHT_TRY(average.add(field_of(picture, Parity::kProgressive)));
+  return average.finish();
+}
+
 }  // namespace tubesight::core::picture

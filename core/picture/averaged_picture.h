@@ -74,4 +74,10 @@ class PictureAverage {
   std::array<std::int32_t, 2> counts_{};
 };
 
+/// One whole picture as if it were an average; `buffer` holds at least as many sums as it has
+/// pixels and must outlive the result. kInvalidArgument: fewer than two
+/// lines, or too small a buffer.
+[[nodiscard]] Result<AveragedPicture> average_of_one(const ImageView& picture,
+                                                     std::span<std::uint16_t> buffer);
+
 }  // namespace tubesight::core::picture

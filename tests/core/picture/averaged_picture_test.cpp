@@ -99,5 +99,28 @@ TEST_F(PictureAverageOf, NothingIsNotReady) {
   EXPECT_EQ(picture.error(), Error::kNotReady);
 }
 
+TEST(AverageOfOne, IsThePictureItself) {
+  const std::array<std::uint8_t, 7> pixels = {1, 2, 0, 0, 3, 255, 0};  // stride 4
+  std::array<std::uint16_t, 4> buffer{};
+
+  const auto picture = average_of_one(ImageView{pixels.data(), 2, 2, 4}, buffer);
+
+  ASSERT_TRUE(picture.has_value());
+  EXPECT_EQ(picture->at(0, 0), 1 * 256);
+  EXPECT_EQ(picture->at(1, 0), 2 * 256);
+  EXPECT_EQ(picture->at(0, 1), 3 * 256);
+  EXPECT_EQ(picture->at(1, 1), 255 * 256);
+}
+
+TEST(AverageOfOne, NeedsTwoLinesAndRoom) {
+  const std::array<std::uint8_t, 4> pixels{};
+  std::array<std::uint16_t, 4> buffer{};
+
+  EXPECT_FALSE(average_of_one(ImageView{pixels.data(), 4, 1, 4}, buffer).has_value());
+  EXPECT_FALSE(average_of_one(ImageView{pixels.data(), 0, 2, 2}, buffer).has_value());
+  EXPECT_FALSE(
+      average_of_one(ImageView{pixels.data(), 2, 2, 2}, std::span(buffer).first(3)).has_value());
+}
+
 }  // namespace
 }  // namespace tubesight::core::picture
