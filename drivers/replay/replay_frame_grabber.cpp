@@ -5,43 +5,14 @@
 #include "core/base/assert.h"
 #include "drivers/replay/companion.h"
 #include "drivers/replay/field_time.h"
+#include "drivers/replay/scan_flag.h"
 
 namespace tubesight::drivers {
 namespace {
 
 using core::Error;
 using core::Result;
-using core::Scan;
 using core::Unexpected;
-
-constexpr const char* header_words(Y4mInterlacing interlacing) {
-  switch (interlacing) {
-    case Y4mInterlacing::kUnstated: return "no I";
-    case Y4mInterlacing::kProgressive: return "Ip (progressive)";
-    case Y4mInterlacing::kEvenFirst: return "It (even lines first)";
-    case Y4mInterlacing::kOddFirst: return "Ib (odd lines first)";
-  }
-  return "";
-}
-
-constexpr const char* scan_word(Scan scan) {
-  switch (scan) {
-    case Scan::kEvenFirst: return "even-first";
-    case Scan::kOddFirst: return "odd-first";
-    case Scan::kProgressive: return "progressive";
-  }
-  return "";
-}
-
-constexpr bool agree(Y4mInterlacing interlacing, Scan scan) {
-  switch (interlacing) {
-    case Y4mInterlacing::kUnstated: return true;
-    case Y4mInterlacing::kProgressive: return scan == Scan::kProgressive;
-    case Y4mInterlacing::kEvenFirst: return scan == Scan::kEvenFirst;
-    case Y4mInterlacing::kOddFirst: return scan == Scan::kOddFirst;
-  }
-  return false;
-}
 
 std::string size_words(std::int32_t width_px, std::int32_t height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px);
@@ -154,12 +125,10 @@ Result<void> ReplayFrameGrabber::check_header() {
                     " pixels, expected " + size_words(camera_.width_px, camera_.height_px) +
                     " as [camera] of the settings says");
   }
-  if (!ignores_scan_flag_ && !agree(header.interlacing, camera_.scan)) {
+  if (const std::string why = why_other_scan(header.interlacing, camera_.scan);
+      !why.empty() && !ignores_scan_flag_) {
     scan_disagrees_ = true;
-    return fail(Error::kInvalidArgument, recording_ + ": header says " +
-                                             header_words(header.interlacing) +
-                                             ", expected scan = \"" + scan_word(camera_.scan) +
-                                             "\" as [camera] of the settings says");
+    return fail(Error::kInvalidArgument, recording_ + ": " + why);
   }
   if (interlaced() && header.height_px < 2) {
     return fail(Error::kInvalidArgument,
