@@ -163,6 +163,9 @@ const char* find_misplaced(const CalibrateArguments& arguments) {
                            !arguments.camera.residuals.empty())) {
     return "--write-points, --residuals, --type: of a camera alone, expected calibrate camera";
   }
+  if (what != "camera" && what != "tool" && arguments.ignore_scan_flag) {
+    return "--ignore-scan-flag: of a camera or a tool alone, expected one of these";
+  }
   if (what != "base" && is_for_base(arguments.base)) {
     return "--level, --tool-known, --sheet, --touches: of a base alone, expected calibrate base";
   }
@@ -221,6 +224,9 @@ CLI::App* add_calibrate(CLI::App& app, CalibrateArguments& arguments) {
       ->add_option("--out", arguments.out,
                    "Write the settings found; those that stood there are kept as OUT.toml.bak")
       ->option_text("OUT.toml");
+  calibrate->add_flag("--ignore-scan-flag", arguments.ignore_scan_flag,
+                      "Of a camera or a tool: believe [camera] scan where a recording's flag says "
+                      "another order of lines");
   add_camera_options(*calibrate, arguments.camera);
   add_tool_options(*calibrate, arguments.tool);
   add_base_options(*calibrate, arguments.base);
@@ -248,6 +254,7 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
   if (what == "camera") {
     arguments.camera.target = arguments.file;
     arguments.camera.out = arguments.out;
+    arguments.camera.ignore_scan_flag = arguments.ignore_scan_flag;
     arguments.camera.picture = std::exchange(arguments.base.picture, {});
     return run_calibrate_camera(arguments.camera);
   }
@@ -272,6 +279,7 @@ ExitStatus run_calibrate(CalibrateArguments& arguments) {
   }
   arguments.tool.session = arguments.file;
   arguments.tool.out = arguments.out;
+  arguments.tool.ignore_scan_flag = arguments.ignore_scan_flag;
   return run_calibrate_tool(arguments.tool);
 }
 

@@ -24,6 +24,7 @@ struct CalibrateArguments {
   std::string what;
   std::string file;
   std::string out;
+  bool ignore_scan_flag = false;  ///< of a camera or a tool
   CalibrateCameraOptions camera;
   CalibrateToolOptions tool;
   CalibrateBaseOptions base;

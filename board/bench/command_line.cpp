@@ -26,6 +26,7 @@
 #include "board/bench/replay_arguments.h"
 #include "board/bench/simulate/simulate_command.h"
 #include "board/bench/simulate/simulate_options.h"
+#include "board/bench/talk_arguments.h"
 #include "board/box/version.h"
 #include "drivers/files/commit_together.h"
 
@@ -65,7 +66,7 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
           "Settings of the session: camera, tubesheet, and tool for the tool's pose (TOML)")
       ->required();
   pose->add_option("IMAGE", options.images,
-                   "Stills: 8-bit grey PNG or PGM; or recordings (.y4m, .y4m.xz)")
+                   "Stills: PNG, PGM or what ffmpeg reads; or recordings and videos")
       ->required();
   pose->add_option(
           "--frames", options.frames,
@@ -84,6 +85,8 @@ CLI::App* add_pose(CLI::App& app, PoseCommandOptions& options) {
       });
   pose->add_flag("--only-start", options.only_start, "Use the tube-ends named and no others");
   pose->add_flag("--average", options.average, "Average all stills, up to 32, to one pose");
+  pose->add_flag("--ignore-scan-flag", options.ignore_scan_flag,
+                 "Believe [camera] scan where a recording's flag says another order of lines");
   pose->add_option("--csv", options.csv, "Write one row a pose")->option_text("P.csv");
   pose->add_option("--covariance", options.covariance, "Write the covariance, one row a pose")
       ->option_text("V.csv");
@@ -116,7 +119,8 @@ CLI::App* add_look(CLI::App& app, LookOptions& options) {
   CLI::App* const look = app.add_subcommand(
       "look", "Finds the lattice in pictures with no settings at all: dots or tube-ends");
   look->add_option("PICTURE", options.pictures,
-                   "Stills: PNG or PGM; or recordings (.y4m, .y4m.xz), their first frame")
+                   "Stills: PNG, PGM or what ffmpeg reads; or recordings and videos, their first "
+                   "frame")
       ->required();
   look->add_option("--csv", options.csv, "Write one row an element found")->option_text("L.csv");
   look->add_option("--overlay", options.overlay,
@@ -241,7 +245,13 @@ class Commands {
         budget_(add_budget(app, budget_options_)),
         campaign_(add_campaign(app, campaign_options_)),
         simulate_(add_simulate(app, simulate_options_)),
-        devices_(add_devices(app, devices_options_)) {}
+        devices_(add_devices(app, devices_options_)) {
+    // What `devices` lists is all that it does.
+    for (CLI::App* const command :
+         app.get_subcommands([this](const CLI::App* each) { return each != devices_; })) {
+      add_talk(*command);
+    }
+  }
 
   ExitStatus run() {
     if (campaign_->parsed()) {  // its progress is kept while it runs

@@ -17,7 +17,7 @@ const std::map<std::string, ScalarChoice> kScalars = {
     {"double", ScalarChoice::kDouble},
 };
 
-/// Which part of the recording, and how much is said of it.
+/// Which part of the recording, and what is asked of it.
 void add_replay_choice(CLI::App& replay, ReplayOptions& options) {
   constexpr double kLongest_s = 4e9;
   constexpr std::int64_t kMostFrames = 1'000'000;
@@ -35,15 +35,9 @@ void add_replay_choice(CLI::App& replay, ReplayOptions& options) {
       ->option_text("N")
       ->check(CLI::Range(std::int64_t{1}, kMostFrames));
   replay.add_flag("--ignore-scan-flag", options.ignore_scan_flag,
-                  "Believe [camera] scan where the recording's flag says another order of lines");
+                  "Believe [camera] scan where a recording's flag says another order of lines");
   replay.add_flag("--must-track", options.must_track,
                   "End with status 3 when the tracking never started, or was lost");
-  CLI::Option* const quiet = replay.add_flag("-q,--quiet", options.quiet,
-                                             "Print neither summary nor progress; messages alone");
-  replay
-      .add_flag("-v,--verbose", options.verbose,
-                "Tell how the recording is read, before the fields")
-      ->excludes(quiet);
 }
 
 }  // namespace

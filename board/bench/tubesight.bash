@@ -27,39 +27,39 @@ _tubesight() {
   # Flags, and options that take a value.
   case $command in
     new)
-      options="-h --help"
+      options="-h --help -q --quiet -v --verbose"
       taking="--from --camera --efl-mm --pixel-um --scan --lattice --pitch-mm --bore-mm --weld --tool-mm"
       taking+=" --tool-deg --at"
       ;;
     replay)
-      options="-h --help --overlay-estimates --ignore-scan-flag --must-track -q --quiet -v --verbose"
+      options="-h --help -q --quiet -v --verbose --overlay-estimates --ignore-scan-flag --must-track"
       taking="--fields --centers --overlay --poses --pairs --replies --summary --from --to --every"
       taking+=" --scalar"
       ;;
     pose)
-      options="-h --help --only-start --average --total"
+      options="-h --help -q --quiet -v --verbose --only-start --average --total --ignore-scan-flag"
       taking="--frames --start --csv --covariance --overlay --correct --limit-mm --method --edge"
       ;;
     look)
-      options="-h --help"
+      options="-h --help -q --quiet -v --verbose"
       taking="--csv --overlay"
       ;;
     calibrate)
-      options="-h --help --level --tool-known --free-efl --opencv --type"
+      options="-h --help -q --quiet -v --verbose --level --tool-known --free-efl --opencv --type --ignore-scan-flag"
       taking="--write-points --residuals --sheet --touches --base --arm --picture --export --out --dock --check"
       taking+=" --dock-height-mm --dock-offset-mm --heading-deg --start --points --guidetube-mm"
       taking+=" --rows --columns --spacing-mm --row-spacing-mm --dot-mm --lattice --dots --paper"
       ;;
     budget)
-      options="-h --help"
+      options="-h --help -q --quiet -v --verbose"
       taking="--robots --seed --height-mm --plot"
       ;;
     simulate)
-      options="-h --help --window-only"
+      options="-h --help -q --quiet -v --verbose --window-only"
       taking="--out --seed"
       ;;
     campaign)
-      options="-h --help --lamps --sizes --reduce --without-margin-check"
+      options="-h --help -q --quiet -v --verbose --lamps --sizes --reduce --without-margin-check"
       taking="--moves --fields --hours --seed --first-move --jobs --resume --report --merge"
       taking+=" --replay-move --out"
       ;;

@@ -78,6 +78,7 @@ Result<void> load_session_settings(TextFiles& files, const std::string& path, Ne
   SettingsDocument document;
   document.load(files, path, kSessionTables);
   read_session(document, needed, session);
+  session.files = document.files();
   return document.report(messages);
 }
 

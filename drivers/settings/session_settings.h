@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/settings.h"
@@ -34,6 +35,7 @@ inline constexpr NeededTables kCalibrateToolNeeds{true, false, true, false};
 
 /// A session file as read. About 260 KB: static or heap, never on a stack.
 struct SessionFile {
+  std::vector<std::string> files;  ///< that it was read from, its own first
   core::SessionSettings settings;
   bool has_tool = false;
   bool has_start = false;  ///< without it the window is the whole picture

@@ -200,9 +200,82 @@ TEST(ReplayVideo, TellsHowTheRecordingIsReadWhenAsked) {
 
   const ProgramRun run = run_tubesight(folder, {"replay", "s.toml", "r.y4m", "-v"});
 
-  EXPECT_EQ(run.err,
-            "r.y4m: 96 x 80 pixels, 8 bits, interlaced, 25.000 frames a second, read by itself, no "
-            "meta file, 0 events\n");
+  EXPECT_EQ(
+      run.err,
+      "s.toml: read\nr.y4m: 96 x 80 pixels, 8 bits, even lines first, 25.000 frames a second, "
+      "read by itself, taken as interlaced, no meta file, 0 events\n");
+}
+
+TEST(ReplayVideo, EndsWithThreeWhereTrackingWasAskedForAndLost) {
+  const TemporaryFolder folder;
+  std::string video = first_frames();
+  for (int frame = 0; frame < 2 * kTaken; ++frame) {  // the lamp goes out
+    video += "FRAME\n" + std::string(std::size_t{635} * 480, '\x10');
+  }
+  folder.write("r.y4m", video);
+  const std::vector<std::string> replay = {
+      "replay", kFolder + "session.toml", "r.y4m", "--fields", "f.csv", "--must-track"};
+
+  const ProgramRun run = run_tubesight(folder, replay);
+
+  EXPECT_EQ(run.status, 3) << run.err;
+  EXPECT_TRUE(run.err.starts_with("r.y4m: lost at ")) << run.err;
+  EXPECT_TRUE(run.err.ends_with(", expected to be tracked to its end, for --must-track\n"))
+      << run.err;
+  const std::string fields = folder.read("f.csv");  // all was written all the same
+  EXPECT_EQ(lines_of(fields), 1 + 6 * kTaken);
+  EXPECT_NE(fields.find(",tracking,"), std::string::npos);
+  EXPECT_NE(fields.find(",lost,"), std::string::npos);
+  folder.write("r.y4m", first_frames());
+  EXPECT_EQ(run_tubesight(folder, replay).status, 0);
+}
+
+/// Clicks into the shipped recording's first frame.
+const std::string kClicks = kFolder + "session.toml";
+
+TEST(PoseVideo, NamesTheWayOutWhereTheScanFlagIsWrong) {
+  const TemporaryFolder folder;
+  folder.write("r.y4m", first_frames());
+  run_ffmpeg(folder, "-i r.y4m -vf setfield=prog -c:v ffv1 r.mkv");
+  const auto pose = [&](const std::string& recording, std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"pose", kClicks, recording, "--csv", "p.csv"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_tubesight(folder, arguments);
+  };
+  const std::string said =
+      "r.mkv: header says Ip (progressive), expected scan = \"even-first\" as [camera] of the "
+      "settings says; where the recording's flag is what is wrong: --ignore-scan-flag\n";
+
+  // The first frame, and one that is tracked to.
+  for (const char* const frame : {"0", "5"}) {
+    const ProgramRun refused = pose("r.mkv", {"--frames", frame});
+    EXPECT_EQ(refused.status, 2) << frame;
+    EXPECT_EQ(refused.err, said) << frame;
+    const int status = pose("r.y4m", {"--frames", frame}).status;
+    const ProgramRun taken = pose("r.mkv", {"--frames", frame, "--ignore-scan-flag"});
+    EXPECT_EQ(taken.status, status) << taken.err;
+    EXPECT_EQ(taken.err.find("header says"), std::string::npos) << taken.err;
+  }
+}
+
+TEST(CalibrateVideo, TakesTheScanFlagForWrongWhenTold) {
+  const TemporaryFolder folder;
+  folder.write("r.y4m", first_frames());
+  run_ffmpeg(folder, "-i r.y4m -vf setfield=prog -c:v ffv1 r.mkv");
+  const std::vector<std::string> tool = {"calibrate", "tool", kClicks, "--dock", "40,60", "r.mkv"};
+
+  const ProgramRun refused = run_tubesight(folder, tool);
+  std::vector<std::string> more = tool;
+  more.push_back("--ignore-scan-flag");
+  const ProgramRun taken = run_tubesight(folder, more);
+
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("--ignore-scan-flag"), std::string::npos) << refused.err;
+  EXPECT_EQ(taken.err.find("header says"), std::string::npos) << taken.err;
+  const ProgramRun misplaced =
+      run_tubesight(folder, {"calibrate", "base", "b.csv", "--ignore-scan-flag"});
+  EXPECT_EQ(misplaced.err,
+            "--ignore-scan-flag: of a camera or a tool alone, expected one of these\n");
 }
 
 TEST(Look, ReadsStillsOfOtherKinds) {

@@ -244,6 +244,85 @@ class Words(Folder):
         self.assertEqual(result.returncode, 0, result.stderr)
 
 
+class Talk(Folder):
+    """-q and -v: of every command the same."""
+
+    def cases(self):
+        still = REPOSITORY / PLATE
+        told = ["--efl-mm", "5.06", "--pixel-um", "9.95,9.8", "--pitch-mm", "25.4", "--bore-mm", "18.6"]
+        (self.folder / "c.yaml").write_text(
+            "image_width: 640\nimage_height: 480\ncamera_matrix: [500,0,320,0,500,240,0,0,1]\n"
+            "distortion_coefficients: [-0.1, 0.01, 0, 0, 0]\n")
+        # What -v tells, as far as it tells anything.
+        return {
+            "new": (["new", "n.toml", "--from", "r.y4m.xz", *told],
+                    "r.y4m.xz: 635 x 480 pixels, 8 bits, even lines first, 30.000 frames a second, read by itself\n"),
+            "replay": (["replay", "s.toml", "r.y4m.xz", "--to", "0.1"], "s.toml: read\nr.y4m.xz: 635 x 480 pixels, "),
+            "pose": (["pose", still / "session.toml", self.still], f"{self.still}: 635 x 480 pixels, read by itself\n"),
+            "look": (["look", self.still], f"{self.still}: 635 x 480 pixels, read by itself\n"),
+            "calibrate": (["calibrate", "import", "c.yaml", "--out", "c.toml"], ""),
+            "budget": (["budget", "s.toml", "--robots", "1"], "s.toml: read\n"),
+            "campaign": (["campaign", "--moves", "1"], ", seed 1 from number 0, 1 at a time\n"),
+            "simulate": (["simulate", "whole.toml", "--out", "drawn"], "whole.toml: read, with "),
+        }
+
+    def test_quiet_and_verbose(self):
+        parts = REPOSITORY / "tests/data/scenarios/parts"
+        (self.folder / "whole.toml").write_text(
+            f'include = ["{parts}/camera.toml", "{parts}/sheet-square.toml"]\n[path]\ntube = [40, 60]\n'
+            "height_mm = 60\n[[step]]\nrest_s = 0.1\n")
+        cases = self.cases()
+        self.assertEqual(sorted(cases), sorted(set(COMMANDS) - {"devices"}))
+        for command, (arguments, words) in cases.items():
+            with self.subTest(command=command):
+                usual = run(self.folder, *arguments, stdin=subprocess.DEVNULL)
+                self.assertEqual(usual.returncode, 0, usual.stderr)
+                self.assertNotEqual(usual.stdout, "")
+                for flag in ["-q"]:
+                    (self.folder / "n.toml").unlink(missing_ok=True)
+                    quiet = run(self.folder, *arguments, flag, stdin=subprocess.DEVNULL)
+                    self.assertEqual((quiet.returncode, quiet.stdout), (0, ""))
+                    self.assertEqual(quiet.stderr, usual.stderr)
+                for flag in ["--verbose"]:
+                    (self.folder / "n.toml").unlink(missing_ok=True)
+                    verbose = run(self.folder, *arguments, flag, stdin=subprocess.DEVNULL)
+                    self.assertEqual(verbose.returncode, 0)
+                    if command != "campaign":  # which tells how long it took
+                        self.assertEqual(verbose.stdout, usual.stdout)
+                    self.assertIn(words, verbose.stderr)
+                both = run(self.folder, *arguments, "-q", "-v")
+                self.assertEqual((both.returncode, both.stderr), (2, f"tubesight: {command}: --quiet excludes --verbose "
+                                                                     "(tubesight help tells more)\n"))
+        self.assertEqual(run(self.folder, "devices", "-q").returncode, 2)
+
+    def on_terminal(self, *arguments):
+        """What is written where standard error is a terminal."""
+        leader, follower = pty.openpty()
+        with subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=follower) as process:
+            os.close(follower)
+            said = b""
+            while True:
+                try:
+                    part = os.read(leader, 4096)
+                except OSError:  # nobody writes any more
+                    break
+                if not part:
+                    break
+                said += part
+        os.close(leader)
+        return said.decode()
+
+    def test_progress_of_a_video(self):
+        """Its length comes from the container; a stream has none."""
+        subprocess.run(["ffmpeg", "-nostdin", "-v", "error", "-loop", "1", "-framerate", "30", "-t", "10", "-i", self.still,
+                        "-vf", "setfield=tff", "-c:v", "libx264", "-preset", "ultrafast", "-flags", "+ildct",
+                        "-x264opts", "tff=1", "v.mp4"], cwd=self.folder, check=True)
+        told = ["replay", "s.toml", "v.mp4", "--overlay", "o"]
+        self.assertRegex(self.on_terminal(*told), r"\r\d+ fields, [0-9.]+ s of the recording, \d+ %, \d+:\d\d left")
+        self.assertEqual(self.on_terminal(*told, "-q"), "")
+
+
 class New(Folder):
     """`tubesight new`, asked and told."""
 
@@ -265,6 +344,14 @@ class New(Folder):
         self.assertEqual(again.returncode, 2)
         self.assertIn("is there already", again.stderr)
         self.assertEqual((self.folder / "n.toml").read_text(), text)
+
+    def test_reads_a_video_once(self):
+        """A pipe can be read once alone."""
+        os.mkfifo(self.folder / "p.y4m")
+        with subprocess.Popen(["sh", "-c", "xz -dc r.y4m.xz > p.y4m"], cwd=self.folder, stderr=subprocess.DEVNULL):
+            result = run(self.folder, "new", "n.toml", "--from", "p.y4m", *self.TOLD, stdin=subprocess.DEVNULL)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertIn("635 x 480 px, 30 frames a second, even-first; ", result.stdout)
 
     def test_tells_all_that_is_missing(self):
         result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", "--pitch-mm", "far", stdin=subprocess.DEVNULL)

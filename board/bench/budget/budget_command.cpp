@@ -7,6 +7,7 @@
 #include <memory>
 #include <numbers>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "board/bench/budget/base_scenarios.h"
@@ -94,6 +95,10 @@ constexpr std::array<ChainItem, 10> kChain = {{
      }},
 }};
 
+/// Ways that are tried: the chain's items and all of it, ways to calibrate a base, touches.
+constexpr double kTries =
+    kChain.size() + 1 + std::tuple_size_v<decltype(source_methods())> + 3 + kTouches_mm.size();
+
 /// One run of the command; on the heap, as the settings are large.
 class BudgetRun {
  public:
@@ -137,6 +142,9 @@ class BudgetRun {
     const bool good = static_cast<bool>(
         drivers::load_session_settings(options_.settings, kNeeds, file_, messages));
     tell(messages);
+    if (good) {
+      tell_files(file_.files);
+    }
     return good;
   }
 
@@ -146,7 +154,8 @@ class BudgetRun {
   }
 
   void show(const std::string& what) {
-    progress_.update(ProgressLine::Clock::now(), "budget: " + what);
+    progress_.update(ProgressLine::Clock::now(), "budget: " + what,
+                     static_cast<double>(tries_++) / kTries);
   }
 
   bool tell_vision() {
@@ -205,6 +214,7 @@ class BudgetRun {
       show("the chain's " + std::string(item.name));
       append_row(item.name, mean_of(try_method(perfect, alone)), "");
     }
+    show("the chain together");
     append_row("chain together", mean_of(try_method(perfect, scenario_)), "");
     if (file_.base_quality.has_sigma) {
       const auto& s = file_.base_quality.sigma;
@@ -288,7 +298,8 @@ class BudgetRun {
   std::vector<BudgetShare> means_;
   std::vector<Panel> panels_;
   std::string text_;
-  ProgressLine progress_{stderr, standard_error_is_terminal()};
+  ProgressLine progress_;
+  int tries_ = 0;  ///< of kTries
 };
 
 }  // namespace

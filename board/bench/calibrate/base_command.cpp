@@ -153,6 +153,9 @@ class BaseRun {
              good;
     }
     tell(messages);
+    if (good) {
+      tell_more(options_.pairs + ": read, " + std::to_string(pairs_.pairs.size()) + " pairs");
+    }
     if (good && options_.sheet.empty()) {
       sample_disc(pairs_.pairs, places_);
     } else if (good) {

@@ -163,12 +163,13 @@ ExitStatus run_calibrate_camera(const CalibrateCameraOptions& options) {
   if (!good) {
     return ExitStatus::kWrongInput;
   }
+  tell_files({options.target});
   if (const std::string clash = find_conflict(options, file); !clash.empty()) {
     tell(clash);
     return ExitStatus::kWrongInput;
   }
   const auto work = std::make_unique<Workspace>();
-  CameraViews views(file);
+  CameraViews views(file, options.ignore_scan_flag);
   if (const ExitStatus status = views.read(work->data); status != ExitStatus::kDone) {
     tell(views.message());
     return status;

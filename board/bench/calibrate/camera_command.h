@@ -15,7 +15,8 @@ struct CalibrateCameraOptions {
   bool opencv = false;    ///< in the manner of cv::FileStorage
   std::string residuals;  ///< a table of all dots
   std::string points;     ///< a folder for what the pictures show
-  bool type = false;      ///< for cameras of this type that have no calibration of their own
+  bool ignore_scan_flag = false;
+  bool type = false;  ///< for cameras of this type that have no calibration of their own
 };
 
 /// `tubesight calibrate camera`: the camera's internal parameters from views of a dot template.

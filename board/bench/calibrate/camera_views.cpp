@@ -93,10 +93,10 @@ std::string why_not_sharp(const DotSharpness& sharpness) {
 
 }  // namespace
 
-CameraViews::CameraViews(const drivers::TargetFile& file)
+CameraViews::CameraViews(const drivers::TargetFile& file, bool ignore_scan_flag)
     : file_(file),
       target_(target_of(file.target)),
-      averager_(file.camera),
+      averager_(file.camera, ignore_scan_flag),
       scratch_(static_cast<std::size_t>(file.camera.width_px) *
                static_cast<std::size_t>(file.camera.height_px)) {}
 
@@ -111,10 +111,13 @@ ExitStatus CameraViews::read(CalibrationData& data) {
   data.dot_radius_mm = 0.5 * target_.dot_mm;
   data.dots.clear();
   data.views.clear();
-  ProgressLine progress(stderr, standard_error_is_terminal());
+  ProgressLine progress;
   for (const drivers::ViewSettings& view : file_.views) {
-    progress.update(ProgressLine::Clock::now(), "view " + std::to_string(data.views.size() + 1) +
-                                                    " of " + std::to_string(file_.views.size()));
+    progress.update(
+        ProgressLine::Clock::now(),
+        "view " + std::to_string(data.views.size() + 1) + " of " +
+            std::to_string(file_.views.size()),
+        static_cast<double>(data.views.size()) / static_cast<double>(file_.views.size()));
     CalibrationView next;
     next.first = data.dots.size();
     next.staged = view.staged;

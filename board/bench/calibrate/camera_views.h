@@ -18,7 +18,8 @@ namespace tubesight::board {
 /// them their places, or reads a points file.
 class CameraViews {
  public:
-  explicit CameraViews(const drivers::TargetFile& file);
+  /// With `ignore_scan_flag`, as StillAverager.
+  CameraViews(const drivers::TargetFile& file, bool ignore_scan_flag);
 
   /// Appends all views to `data`. kJobFailed: no template in a picture, or a camera that moved;
   /// kWrongInput: a file cannot be used. message() tells in one line.

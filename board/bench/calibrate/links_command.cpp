@@ -91,6 +91,9 @@ class LinksRun {
       good = false;
     }
     tell(messages);
+    if (good) {
+      tell_more(options_.pairs + ": read, " + std::to_string(pairs_.pairs.size()) + " pairs");
+    }
     return good;
   }
 

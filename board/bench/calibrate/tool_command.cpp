@@ -46,6 +46,7 @@ class ToolRun {
     if (!read_tool_inputs(options_, inputs_, poses_)) {
       return ExitStatus::kWrongInput;
     }
+    tell_files(inputs_.file.files);
     report_.camera = inputs_.file.settings.camera;
     report_.assumption = inputs_.assumption;
     report_.shape = inputs_.shape;
@@ -80,6 +81,12 @@ class ToolRun {
     progress_.erase();
     tell(message);
     return status;
+  }
+
+  void show(const std::string& words) {
+    const std::size_t all = inputs_.docks.size() + inputs_.checks.size();
+    progress_.update(ProgressLine::Clock::now(), words,
+                     static_cast<double>(pictures_done_++) / static_cast<double>(all));
   }
 
   ExitStatus by_points() {
@@ -211,7 +218,7 @@ class ToolRun {
 
   ExitStatus dock(std::size_t number, core::calibration::Docking& docking, std::string& line) {
     const DockedPictures& asked = inputs_.docks[number];
-    progress_.update(ProgressLine::Clock::now(), "docking on tube " + tube_text(asked.tube));
+    show("docking on tube " + tube_text(asked.tube));
     const DockedPose pose = poses_.find(asked, inputs_.starts[number]);
     if (pose.status != ExitStatus::kDone) {
       return failed(pose.message, pose.status);
@@ -282,7 +289,7 @@ class ToolRun {
   }
 
   ExitStatus check(const DockedPictures& docking, const PictureStarts& starts) {
-    progress_.update(ProgressLine::Clock::now(), "check on tube " + tube_text(docking.tube));
+    show("check on tube " + tube_text(docking.tube));
     const DockedPose pose = poses_.find(docking, starts);
     if (pose.status != ExitStatus::kDone) {
       return failed(pose.message, pose.status);
@@ -311,7 +318,8 @@ class ToolRun {
   const CalibrateToolOptions& options_;
   ToolInputs inputs_;
   DockedPoses poses_;
-  ProgressLine progress_{stderr, standard_error_is_terminal()};
+  ProgressLine progress_;
+  std::size_t pictures_done_ = 0;  ///< dockings and checks
   core::calibration::DockingList dockings_;
   std::vector<core::math::Vector6d> by_focal_;
   ToolReport report_;

@@ -17,9 +17,10 @@ struct CalibrateToolOptions {
   std::string offset_mm;  ///< "X,Y" of the tip from the tube's centre; empty: not known
   double heading_deg = 0.0;
   bool free_focal = false;  ///< the EFL is found, too
-  std::string points;       ///< points file of a target on the guidetube, in place of dockings
-  std::string guidetube;    ///< "DIAMETER,LENGTH" of the guidetube; empty: no silhouette
-  std::string picture;      ///< what is drawn; empty: nothing
+  bool ignore_scan_flag = false;
+  std::string points;     ///< points file of a target on the guidetube, in place of dockings
+  std::string guidetube;  ///< "DIAMETER,LENGTH" of the guidetube; empty: no silhouette
+  std::string picture;    ///< what is drawn; empty: nothing
   std::string out;
 };
 

@@ -34,7 +34,8 @@ bool parse_dockings(std::string_view name, const std::vector<std::string>& words
   return true;
 }
 
-bool DockedPoses::open(const core::SessionSettings& settings, std::string& message) {
+bool DockedPoses::open(const core::SessionSettings& settings, bool ignore_scan_flag,
+                       std::string& message) {
   // The tool is what is sought: the camera stands for it.
   const auto model =
       core::pose::make_pose_model(settings.camera, core::ToolSettings{}, settings.tubesheet);
@@ -45,7 +46,7 @@ bool DockedPoses::open(const core::SessionSettings& settings, std::string& messa
     return false;
   }
   model_ = *model;
-  averager_ = std::make_unique<StillAverager>(settings.camera);
+  averager_ = std::make_unique<StillAverager>(settings.camera, ignore_scan_flag);
   workspace_ = std::make_unique<core::pose::PictureWorkspace>();
   return true;
 }

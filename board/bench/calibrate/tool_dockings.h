@@ -45,7 +45,8 @@ struct DockedPose {
 class DockedPoses {
  public:
   /// Takes over camera and sheet; false, and why in `message`, when they make no pose.
-  [[nodiscard]] bool open(const core::SessionSettings& settings, std::string& message);
+  [[nodiscard]] bool open(const core::SessionSettings& settings, bool ignore_scan_flag,
+                          std::string& message);
 
   /// Goes on with another EFL; false where no camera has it, and the one before stays.
   [[nodiscard]] bool take_focal_length(double focal_length_mm);

@@ -156,7 +156,7 @@ bool read_tool_inputs(const CalibrateToolOptions& options, ToolInputs& inputs, D
   if (!good) {
     return false;
   }
-  if (pictures && !poses.open(inputs.file.settings, message)) {
+  if (pictures && !poses.open(inputs.file.settings, options.ignore_scan_flag, message)) {
     return wrong(options.session + ": " + message);
   }
   if (!know_what(options) || !take_words(options, inputs) || !take_assumption(options, inputs)) {

@@ -92,6 +92,9 @@ class ZonesRun {
       good = read_zones(options_.out, points_, messages) && good;
     }
     tell(messages);
+    if (good) {
+      tell_more(options_.pairs + ": read, " + std::to_string(pairs_.pairs.size()) + " pairs");
+    }
     old_ = points_.size();
     T_sheet_base_ = {
         core::rotation_from_degrees(base.rotation_deg),

@@ -79,6 +79,7 @@ class CampaignCommand {
       return ExitStatus::kWrongInput;
     }
     choose_first_move();
+    tell_plan();
     // A place that cannot be written to is found out now, not after hours.
     for (const std::string& path : {options_.resume, options_.report}) {
       drivers::AtomicFile file;
@@ -108,6 +109,7 @@ class CampaignCommand {
   ExitStatus run_lamps() {
     plan_.seed = static_cast<std::uint64_t>(options_.seed.value_or(1));
     plan_.first_move = options_.first_move.value_or(0);
+    tell_plan();
     drivers::AtomicFile report;
     if (!options_.report.empty() && !report.open(options_.report)) {
       tell(report.message());
@@ -116,13 +118,11 @@ class CampaignCommand {
     campaign::LampProgress progress;
     campaign::LampWatcher watcher;
     watcher.found = [this](const campaign::LampFinding& found) {
-      line_.erase();
       tell("run " + std::to_string(plan_.seed) + ":" + std::to_string(found.run) + ", " +
            campaign::lamp_kind_name(found.kind) + ": " + found.what);
     };
     watcher.done_run = [this](const campaign::LampProgress& now) {
-      line_.update(Clock::now(),
-                   std::to_string(now.total()[campaign::LampCount::kFields]) + " fields");
+      show(Clock::now(), "runs", now.end - now.first, now.total()[campaign::LampCount::kFields]);
     };
     const std::string trouble = campaign::run_lamp_campaign(plan_, progress, watcher);
     line_.erase();
@@ -139,6 +139,16 @@ class CampaignCommand {
     const bool written = write_out(campaign::lamp_report_text(progress, box));
     const bool wrong = progress.total()[campaign::LampCount::kWrong] > 0;
     return written && !wrong ? ExitStatus::kDone : ExitStatus::kJobFailed;
+  }
+
+  /// With `-v`, what is drawn from.
+  void tell_plan() const {
+    const std::int64_t done = progress_.total()[Count::kMoves];
+    tell_more("campaign: box " + campaign::box_identity(version_) + ", " +
+              campaign::configuration_name(plan_.run, plan_.draw) + ", seed " +
+              std::to_string(plan_.seed) + " from number " + std::to_string(plan_.first_move) +
+              ", " + std::to_string(plan_.jobs) + " at a time" +
+              (done > 0 ? ", " + std::to_string(done) + " moves done before" : ""));
   }
 
   bool resume() {
@@ -171,7 +181,7 @@ class CampaignCommand {
   bool note(const Progress& progress) {
     const Clock::time_point now = Clock::now();
     const campaign::Counts total = progress.total();
-    show(now, total[Count::kMoves], total[Count::kFields]);
+    show(now, "moves", total[Count::kMoves], total[Count::kFields]);
     if (options_.resume.empty() || now < next_write_) {
       return true;
     }
@@ -181,7 +191,7 @@ class CampaignCommand {
   }
 
   /// How far the campaign is towards the limit that it comes to first, and at this run's pace.
-  void show(Clock::time_point now, std::int64_t moves, std::int64_t fields) {
+  void show(Clock::time_point now, const char* kind, std::int64_t moves, std::int64_t fields) {
     const auto part = [](double done, double of) { return of > 0.0 ? done / of : 0.0; };
     const double hours = std::chrono::duration<double, std::ratio<3600>>(now - begun_).count();
     const double done = std::max({part(static_cast<double>(moves), double(plan_.limits.moves)),
@@ -191,8 +201,8 @@ class CampaignCommand {
     before_ = before;
     const double share = before < 1.0 ? (done - before) / (1.0 - before) : 1.0;
     const std::string left = share_words(share, now - begun_);
-    line_.update(now, std::to_string(moves) + " moves, " + std::to_string(fields) + " fields" +
-                          (left.empty() ? "" : ", of this run " + left));
+    line_.update(now, std::to_string(moves) + ' ' + kind + ", " + std::to_string(fields) +
+                          " fields" + (left.empty() ? "" : ", of this run " + left));
   }
 
   ExitStatus merge() {
@@ -241,7 +251,7 @@ class CampaignCommand {
   Progress progress_;
   const Clock::time_point begun_ = Clock::now();
   std::optional<double> before_;  ///< share done when this run's first move was
-  ProgressLine line_{stderr, standard_error_is_terminal()};
+  ProgressLine line_;
   Clock::time_point next_write_{};
   bool failed_ = false;
 };

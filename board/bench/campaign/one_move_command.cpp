@@ -1,6 +1,5 @@
 #include "board/bench/campaign/one_move_command.h"
 
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,9 +8,11 @@
 #include "board/bench/campaign/move_reducer.h"
 #include "board/bench/campaign/move_run.h"
 #include "board/bench/campaign/random_move.h"
+#include "board/bench/output/progress_line.h"
 #include "board/bench/output/text_output.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/files/csv_reader.h"
+#include "drivers/files/decimal.h"
 #include "drivers/scenario/scenario_file.h"
 #include "drivers/scenario/scenario_text.h"
 #include "drivers/simulated/simulated_world.h"
@@ -26,14 +27,16 @@ bool parse_move(std::string_view text, std::int64_t& seed, std::int64_t& move) {
          drivers::parse_whole(text.substr(colon + 1), move) && seed >= 0 && move >= 0;
 }
 
-void print(const Counts& counts) {
+std::string counts_text(const Counts& counts) {
+  std::string text;
   for (std::size_t i = 0; i < kCounts; ++i) {
     const auto count = static_cast<Count>(i);
     if (counts[count] != 0) {
-      std::printf("  %-20s %lld\n", std::string(name_of(count)).c_str(),
-                  static_cast<long long>(counts[count]));
+      drivers::print(text, "  %-20s %lld\n", std::string(name_of(count)).c_str(),
+                     static_cast<long long>(counts[count]));
     }
   }
+  return text;
 }
 
 /// Writes a scenario and reads it back: what it says must be what was run, by `shows_the_same`.
@@ -57,8 +60,7 @@ ExitStatus write_scenario(drivers::AtomicFile& file, const std::string& path,
          "expected the same counts");
     return ExitStatus::kJobFailed;
   }
-  std::printf("%s: shows the same\n", path.c_str());
-  return ExitStatus::kDone;
+  return write_out(path + ": shows the same\n") ? ExitStatus::kDone : ExitStatus::kJobFailed;
 }
 
 /// Runs and writes one run of a lamp.
@@ -73,16 +75,20 @@ ExitStatus run_one_lamp(const CampaignOptions& options, std::uint64_t seed, std:
   LampRunner runner;
   const LampResult result = runner.run(*scenario, run);
   const std::string kind = lamp_kind_name(lamp_kind_of(run));
-  std::printf("run %s, %s\n", options.one_move.c_str(), kind.c_str());
+  std::string text = "run " + options.one_move + ", " + kind + "\n";
   for (std::size_t i = 0; i < kLampCounts; ++i) {
     if (const std::int64_t value = result.counts.values.at(i); value != 0) {
-      std::printf("  %-20s %lld\n", std::string(name_of(static_cast<LampCount>(i))).c_str(),
-                  static_cast<long long>(value));
+      drivers::print(text, "  %-20s %lld\n",
+                     std::string(name_of(static_cast<LampCount>(i))).c_str(),
+                     static_cast<long long>(value));
     }
   }
   if (!result.named.empty()) {
-    std::printf("  %s after %.2f s\n", result.named.c_str(),
-                static_cast<double>(result.counts.named_ms_most) / 1000.0);
+    drivers::print(text, "  %s after %.2f s\n", result.named.c_str(),
+                   static_cast<double>(result.counts.named_ms_most) / 1000.0);
+  }
+  if (!write_out(text)) {
+    return ExitStatus::kJobFailed;
   }
   return write_scenario(
       file, options.out, *scenario, "Campaign run " + options.one_move + " (" + kind + ")",
@@ -109,21 +115,34 @@ class OneMove {
            " vouches for no wrong tube, expected one that does");
       return ExitStatus::kWrongInput;
     }
-    std::printf("move %s, %s\n", options_.one_move.c_str(), stratum.c_str());
-    print(result.counts);
+    std::string text =
+        "move " + options_.one_move + ", " + stratum + "\n" + counts_text(result.counts);
     if (options_.reduce) {
-      reduce(*scenario_, [this](const drivers::Scenario& scenario) {
-        return run(scenario, true).counts[Count::kWrongTube] > 0;
-      });
-      std::printf("reduced to %zu path parts, %zu faults and %.3f s\n", scenario_->path.size(),
-                  scenario_->faults.size(), scenario_->video.length_s);
+      reduce();
+      drivers::print(text, "reduced to %zu path parts, %zu faults and %.3f s\n",
+                     scenario_->path.size(), scenario_->faults.size(), scenario_->video.length_s);
     }
-    return write(stratum);
+    return write_out(text) ? write(stratum) : ExitStatus::kJobFailed;
   }
 
  private:
   MoveResult run(const drivers::Scenario& scenario, bool stop_at_wrong) {
     return runner_.run(scenario, {!options_.without_margin_check, stop_at_wrong});
+  }
+
+  /// How many tries that takes nobody knows beforehand.
+  void reduce() {
+    ProgressLine progress;
+    std::int64_t tries = 0;
+    campaign::reduce(*scenario_, [&](const drivers::Scenario& scenario) {
+      const bool shows_it = run(scenario, true).counts[Count::kWrongTube] > 0;
+      std::string words;
+      drivers::print(words, "reducing: %lld tries, %zu path parts, %zu faults, %.3f s",
+                     static_cast<long long>(++tries), scenario.path.size(), scenario.faults.size(),
+                     scenario.video.length_s);
+      progress.update(ProgressLine::Clock::now(), words);
+      return shows_it;
+    });
   }
 
   // Faults of whole frames are drawn between two now and then; a scenario file may hold none that

@@ -8,9 +8,12 @@
 namespace tubesight::board {
 
 RecordedField read_first_field(const core::CameraSettings& camera, const std::string& recording,
-                               std::int64_t frame) {
+                               std::int64_t frame, bool ignore_scan_flag) {
   RecordedField read;
   drivers::ReplayFrameGrabber grabber(camera, recording);
+  if (ignore_scan_flag) {
+    grabber.ignore_scan_flag();
+  }
   if (!feed(grabber, recording, read.message)) {
     return read;
   }
@@ -21,9 +24,8 @@ RecordedField read_first_field(drivers::ReplayFrameGrabber& grabber,
                                const core::CameraSettings& camera, const std::string& recording,
                                std::int64_t frame) {
   RecordedField read;
-  if (!grabber.start()) {
-    read.message =
-        grabber.messages().empty() ? recording + ": cannot be read" : grabber.messages().front();
+  if (drivers::Messages messages; !start(grabber, messages)) {
+    read.message = messages.empty() ? recording + ": cannot be read" : messages.front();
     return read;
   }
   while (true) {

@@ -20,7 +20,8 @@ struct RecordedField {
 /// Reads the first field of a frame, the lines of the other one filled in between: the tool may
 /// move, and a start counts in that field.
 [[nodiscard]] RecordedField read_first_field(const core::CameraSettings& camera,
-                                             const std::string& recording, std::int64_t frame);
+                                             const std::string& recording, std::int64_t frame,
+                                             bool ignore_scan_flag);
 
 /// The same by a grabber of that recording that was told how to read it, and not started.
 [[nodiscard]] RecordedField read_first_field(drivers::ReplayFrameGrabber& grabber,

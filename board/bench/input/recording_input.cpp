@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "drivers/ffmpeg/ffmpeg_decoder.h"
+#include "drivers/ffmpeg/video_length.h"
 #include "drivers/files/byte_source.h"
+#include "drivers/files/decimal.h"
 #include "drivers/files/small_letters.h"
 
 namespace tubesight::board {
@@ -108,6 +110,40 @@ Result<void> feed(drivers::ReplayFrameGrabber& grabber, const std::string& recor
   TUBESIGHT_TRY(open_video(recording, source, message));
   grabber.read_from(std::unique_ptr<drivers::StampedSource>(std::move(source)));
   return {};
+}
+
+bool start(drivers::ReplayFrameGrabber& grabber, drivers::Messages& messages) {
+  const bool started = static_cast<bool>(grabber.start());
+  messages.insert(messages.end(), grabber.messages().begin(), grabber.messages().end());
+  if (grabber.scan_disagrees()) {
+    messages.back() += kScanFlagWayOut;
+  }
+  return started;
+}
+
+std::string how_read(const std::string& recording, const drivers::Y4mHeader& header) {
+  const bool standard_input = recording == kStandardStream;
+  std::string text = (standard_input ? "standard input" : recording) + ": ";
+  drivers::print(text, "%d x %d pixels, %d bits", header.width_px, header.height_px,
+                 header.depth_bits);
+  switch (header.interlacing) {
+    case drivers::Y4mInterlacing::kUnstated: break;
+    case drivers::Y4mInterlacing::kProgressive: text += ", progressive"; break;
+    case drivers::Y4mInterlacing::kEvenFirst: text += ", even lines first"; break;
+    case drivers::Y4mInterlacing::kOddFirst: text += ", odd lines first"; break;
+  }
+  if (header.rate_numerator > 0) {
+    drivers::print(
+        text, ", %.3f frames a second",
+        static_cast<double>(header.rate_numerator) / static_cast<double>(header.rate_denominator));
+  }
+  const bool by_ffmpeg = !standard_input && kind_of_recording(recording) == RecordingKind::kVideo;
+  return text + (by_ffmpeg ? ", read through ffmpeg" : ", read by itself");
+}
+
+std::optional<double> told_length_s(const std::string& recording) {
+  return kind_of_recording(recording) == RecordingKind::kVideo ? drivers::video_length_s(recording)
+                                                               : std::nullopt;
 }
 
 Result<void> open_frames(drivers::Y4mReader& reader, const std::string& recording,

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "core/base/result.h"
+#include "drivers/files/messages.h"
 #include "drivers/files/y4m_reader.h"
 #include "drivers/replay/replay_frame_grabber.h"
 
@@ -31,6 +33,20 @@ enum class RecordingKind : std::uint8_t {
 /// kIo, kUnsupported ffmpeg is not installed; `message` is one line that begins with the name.
 [[nodiscard]] core::Result<void> feed(drivers::ReplayFrameGrabber& grabber,
                                       const std::string& recording, std::string& message);
+
+/// What ends a message about a wrong flag of the order of lines: the way out.
+inline constexpr std::string_view kScanFlagWayOut =
+    "; where the recording's flag is what is wrong: --ignore-scan-flag";
+
+/// Starts a grabber that was fed. What is wrong is added to `messages`, with the way out where the
+/// settings and the recording's flag disagree about the order of lines.
+[[nodiscard]] bool start(drivers::ReplayFrameGrabber& grabber, drivers::Messages& messages);
+
+/// How a recording of this header is read, in one line for `-v` that begins with its name.
+[[nodiscard]] std::string how_read(const std::string& recording, const drivers::Y4mHeader& header);
+
+/// How long a recording is that ffmpeg reads, s; none where nobody can tell.
+[[nodiscard]] std::optional<double> told_length_s(const std::string& recording);
 
 /// Opens a recording's frames without companions. Errors: as feed(), and of Y4mReader::open().
 [[nodiscard]] core::Result<void> open_frames(drivers::Y4mReader& reader,

@@ -9,6 +9,7 @@
 #include "board/bench/look/look_overlay.h"
 #include "board/bench/look/look_text.h"
 #include "board/bench/output/output_paths.h"
+#include "board/bench/output/progress_line.h"
 #include "board/bench/output/still_reader.h"
 #include "board/bench/output/text_output.h"
 #include "core/detection/lattice_finder.h"
@@ -33,13 +34,19 @@ class LookRun {
       return ExitStatus::kWrongInput;
     }
     ExitStatus status = ExitStatus::kDone;
-    for (const Still& still : stills_of(options_.pictures, {})) {
+    const std::vector<Still> stills = stills_of(options_.pictures, {});
+    ProgressLine progress;
+    for (const Still& still : stills) {
+      progress.update(
+          ProgressLine::Clock::now(), still.name(),
+          static_cast<double>(&still - stills.data()) / static_cast<double>(stills.size()));
       const ExitStatus one = look_at(still);
       if (one == ExitStatus::kWrongInput) {
         return one;
       }
       status = one == ExitStatus::kDone ? status : one;
     }
+    progress.erase();
     return (lattices_ > 0 && !write()) || !write_out(text_, goes_to_standard_output({options_.csv}))
                ? ExitStatus::kJobFailed
                : status;
@@ -72,13 +79,10 @@ class LookRun {
     FinderRefusal refusal = FinderRefusal::kSize;
     sums_.resize(picture_.pixels.size());
     scratch_.resize(picture_.pixels.size());
-    core::picture::PictureAverage average(sums_, picture_.width_px, picture_.height_px);
-    if (average.add(field_of(picture_.view(), core::Parity::kProgressive))) {
-      if (const auto averaged = average.finish()) {
-        core::detection::FinderOptions finder;
-        finder.with_faint = true;
-        refusal = finder_->find(*averaged, finder, scratch_, *found_);
-      }
+    if (const auto averaged = core::picture::average_of_one(picture_.view(), sums_)) {
+      core::detection::FinderOptions finder;
+      finder.with_faint = true;
+      refusal = finder_->find(*averaged, finder, scratch_, *found_);
     }
     if (refusal != FinderRefusal::kNone) {
       tell(still.name() + ": no lattice found: " + std::string(explain(refusal)));

@@ -201,6 +201,7 @@ class NewRun {
       tell(messages);
       return ExitStatus::kWrongInput;
     }
+    tell_files(session->files);
     draft_.camera = session->settings.camera;
     if (session->has_tool || session->has_start || session->settings.tubesheet.bore_mm > 0.0) {
       // A whole session: its other tables would stand twice.

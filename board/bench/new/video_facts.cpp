@@ -91,11 +91,7 @@ std::optional<LatticeFacts> facts_of(const FoundLattice& found, const Eigen::Vec
 std::optional<LatticeFacts> find_lattice(const drivers::GreyPicture& picture) {
   std::vector<std::uint16_t> sums(picture.pixels.size());
   std::vector<std::uint16_t> scratch(picture.pixels.size());
-  core::picture::PictureAverage average(sums, picture.width_px, picture.height_px);
-  if (!average.add(core::field_of(picture.view(), core::Parity::kProgressive))) {
-    return {};
-  }
-  const auto averaged = average.finish();
+  const auto averaged = core::picture::average_of_one(picture.view(), sums);
   if (!averaged) {
     return {};
   }
@@ -108,11 +104,8 @@ std::optional<LatticeFacts> find_lattice(const drivers::GreyPicture& picture) {
   return facts_of(*found, {(picture.width_px - 1) / 2.0, (picture.height_px - 1) / 2.0});
 }
 
-/// What the recording's header says of rate and order of the lines.
-Result<void> read_header(const std::string& file, VideoFacts& facts, std::string& message) {
-  drivers::Y4mReader reader;
-  TUBESIGHT_TRY(open_frames(reader, file, message));
-  const drivers::Y4mHeader& header = reader.header();
+/// What a recording's header says of rate and order of the lines.
+void take_header(const drivers::Y4mHeader& header, VideoFacts& facts) {
   if (header.rate_numerator > 0) {
     facts.rate_hz =
         static_cast<double>(header.rate_numerator) / static_cast<double>(header.rate_denominator);
@@ -123,20 +116,17 @@ Result<void> read_header(const std::string& file, VideoFacts& facts, std::string
     case drivers::Y4mInterlacing::kProgressive: facts.scan = core::Scan::kProgressive; break;
     case drivers::Y4mInterlacing::kUnstated: break;
   }
-  return {};
 }
 
 }  // namespace
 
 Result<void> read_video_facts(const std::string& file, VideoFacts& facts, std::string& message) {
   facts = {};
-  if (is_named_as_recording(file)) {
-    TUBESIGHT_TRY(read_header(file, facts, message));
-  }
   const std::vector<Still> stills = stills_of(std::vector{file}, {});
   StillReader reader;
   drivers::GreyPicture picture;
   TUBESIGHT_TRY(reader.read(stills.front(), picture, message));
+  take_header(reader.header(), facts);
   facts.width_px = picture.width_px;
   facts.height_px = picture.height_px;
   facts.lattice = find_lattice(picture);

@@ -6,13 +6,22 @@
 
 #include <unistd.h>
 
+#include "board/bench/output/text_output.h"
+
 namespace tubesight::board {
 namespace {
 
 constexpr std::chrono::milliseconds kBeforeFirst{500};
 constexpr std::chrono::milliseconds kBetween{250};
+/// What a line of a terminal holds.
+constexpr std::size_t kMostColumns = 79;
+
+ProgressLine* on_terminal = nullptr;
 
 }  // namespace
+
+ProgressLine::ProgressLine()
+    : ProgressLine(stderr, standard_error_is_terminal() && talk() != Talk::kQuiet) {}
 
 bool ProgressLine::due(Clock::time_point now) {
   if (!shown_) {
@@ -57,28 +66,45 @@ void ProgressLine::update(Clock::time_point now, std::int64_t fields, core::Fiel
   }
   std::array<char, 80> text{};
   const double seconds = std::chrono::duration<double>(time).count();
-  std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
-                static_cast<long long>(fields), seconds);
-  const std::string share = share_words(done, now - *begun_);
-  write(share.empty() ? std::string(text.data()) : std::string(text.data()) + ", " + share);
+  const int length = std::snprintf(text.data(), text.size(), "%lld fields, %.1f s of the recording",
+                                   static_cast<long long>(fields), seconds);
+  const double passed_s = std::chrono::duration<double>(now - *begun_).count();
+  if (done < 0.0 && passed_s >= 1.0) {
+    std::snprintf(text.data() + length, text.size() - static_cast<std::size_t>(length),
+                  ", %.0f fields a second", static_cast<double>(fields) / passed_s);
+  }
+  write(text.data(), share_words(done, now - *begun_));
 }
 
-void ProgressLine::update(Clock::time_point now, std::string_view words) {
+void ProgressLine::update(Clock::time_point now, std::string_view words, double done) {
   if (due(now)) {
-    write(words.substr(0, 79));
+    write(words, share_words(done, now - *begun_));
   }
 }
 
-void ProgressLine::write(std::string_view words) {
+void ProgressLine::write(std::string_view words, const std::string& share) {
+  const std::string behind = share.empty() ? "" : ", " + share;
+  std::string line(words.substr(0, kMostColumns - std::min(kMostColumns, behind.size())));
+  line += behind;
+  if (on_terminal != this) {
+    erase_shown();
+    on_terminal = this;
+  }
   // Padded to what stood there, so that a shorter text leaves nothing of a longer one.
-  const int count =
-      std::fprintf(stream_, "\r%-*.*s", static_cast<int>(std::min<std::size_t>(width_, 79)),
-                   static_cast<int>(words.size()), words.data());
+  const int count = std::fprintf(stream_, "\r%-*s",
+                                 static_cast<int>(std::min(width_, kMostColumns)), line.c_str());
   std::fflush(stream_);
   width_ = count > 1 ? static_cast<std::size_t>(count - 1) : 0;
 }
 
+void ProgressLine::erase_shown() {
+  if (on_terminal != nullptr) {
+    on_terminal->erase();
+  }
+}
+
 void ProgressLine::erase() {
+  on_terminal = on_terminal == this ? nullptr : on_terminal;
   if (width_ > 0) {
     std::fprintf(stream_, "\r%*s\r", static_cast<int>(width_), "");
     std::fflush(stream_);

@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "board/bench/input/recording_input.h"
 #include "core/picture/rest_check.h"
+#include "drivers/replay/scan_flag.h"
 
 namespace tubesight::board {
 namespace {
@@ -18,8 +20,9 @@ std::string in_pixels(double px) {
 
 }  // namespace
 
-StillAverager::StillAverager(const core::CameraSettings& camera)
+StillAverager::StillAverager(const core::CameraSettings& camera, bool ignore_scan_flag)
     : camera_(camera),
+      ignore_scan_flag_(ignore_scan_flag),
       sums_(static_cast<std::size_t>(camera.width_px) *
             static_cast<std::size_t>(camera.height_px)) {}
 
@@ -62,6 +65,10 @@ bool StillAverager::add(const Still& still, core::picture::RestAverage& average,
                 std::to_string(picture_.height_px) + " pixels, expected " +
                 std::to_string(camera_.width_px) + " x " + std::to_string(camera_.height_px) +
                 " as [camera] of the settings says");
+  }
+  if (const std::string why = drivers::why_other_scan(reader_.interlacing(), camera_.scan);
+      !why.empty() && !ignore_scan_flag_) {
+    return fail(still.file + ": " + why + std::string(kScanFlagWayOut));
   }
   const bool whole = camera_.scan == core::Scan::kProgressive;
   for (const core::Parity parity : {core::Parity::kEven, core::Parity::kOdd}) {

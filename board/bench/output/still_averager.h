@@ -27,7 +27,8 @@ struct StillsRead {
 /// where the camera is interlaced, between their two fields.
 class StillAverager {
  public:
-  explicit StillAverager(const core::CameraSettings& camera);
+  /// With `ignore_scan_flag` the settings say the order of lines, whatever a recording's flag says.
+  explicit StillAverager(const core::CameraSettings& camera, bool ignore_scan_flag = false);
 
   [[nodiscard]] StillsRead read(std::span<const Still> stills);
 
@@ -38,6 +39,7 @@ class StillAverager {
   bool add(const Still& still, core::picture::RestAverage& average, StillsRead& result);
 
   core::CameraSettings camera_;
+  bool ignore_scan_flag_;
   std::vector<std::uint16_t> sums_;
   StillReader reader_;
   drivers::GreyPicture picture_;

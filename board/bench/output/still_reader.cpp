@@ -1,6 +1,7 @@
 #include "board/bench/output/still_reader.h"
 
 #include "board/bench/input/recording_input.h"
+#include "board/bench/output/text_output.h"
 #include "drivers/files/csv_reader.h"
 
 namespace tubesight::board {
@@ -47,12 +48,20 @@ core::Result<void> StillReader::read(const Still& still, drivers::GreyPicture& p
   if (still.frame >= 0) {
     return read_frame(still, picture, message);
   }
+  header_ = {};
   const auto read = drivers::read_grey_picture(still.file, picture, message);
   const bool foreign =
       !read &&
       (read.error() == core::Error::kUnsupported ||
        (read.error() == core::Error::kInvalidArgument && !drivers::is_grey_picture(still.file)));
-  return foreign ? read_foreign(still.file, picture, message) : read;
+  if (foreign) {
+    return read_foreign(still.file, picture, message);
+  }
+  if (read) {
+    tell_more(still.file + ": " + std::to_string(picture.width_px) + " x " +
+              std::to_string(picture.height_px) + " pixels, read by itself");
+  }
+  return read;
 }
 
 core::Result<void> StillReader::read_foreign(const std::string& file, drivers::GreyPicture& picture,
@@ -66,6 +75,9 @@ core::Result<void> StillReader::read_foreign(const std::string& file, drivers::G
   if (!read) {
     message =
         read.error() == core::Error::kEndOfData ? file + ": holds no picture" : reader.message();
+  } else {
+    tell_more(file + ": " + std::to_string(picture.width_px) + " x " +
+              std::to_string(picture.height_px) + " pixels, read through ffmpeg");
   }
   return read;
 }
@@ -87,15 +99,21 @@ core::Result<void> StillReader::read_frame(const Still& still, drivers::GreyPict
       return opened;
     }
     open_ = still.file;
+    tell_more(how_read(still.file, reader_.header()));
   }
+  header_ = reader_.header();
   picture.width_px = reader_.header().width_px;
   picture.height_px = reader_.header().height_px;
   picture.pixels.resize(static_cast<std::size_t>(reader_.header().luma_bytes()));
   while (reader_.frames_read() <= still.frame) {
+    progress_.update(
+        ProgressLine::Clock::now(), still.name() + ": reading up to it",
+        static_cast<double>(reader_.frames_read()) / static_cast<double>(still.frame + 1));
     if (const auto frame = reader_.read_frame(picture.pixels); !frame) {
       return fail(frame.error());
     }
   }
+  progress_.erase();
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "board/bench/output/progress_line.h"
 #include "core/base/result.h"
 #include "drivers/files/picture_reader.h"
 #include "drivers/files/y4m_reader.h"
@@ -34,6 +35,7 @@ struct FrameRange {
 [[nodiscard]] std::vector<Still> stills_of(std::span<const std::string> files, FrameRange frames);
 
 /// Reads stills one by one; frames of one recording, taken in rising order, in one pass over it.
+/// With `-v` it says how each file is read.
 class StillReader {
  public:
   /// PNG and PGM are read by ourselves, other pictures through ffmpeg. Errors: those of
@@ -42,6 +44,11 @@ class StillReader {
   [[nodiscard]] core::Result<void> read(const Still& still, drivers::GreyPicture& picture,
                                         std::string& message);
 
+  /// What the recording of the still last read says of itself; nothing of a picture's file.
+  [[nodiscard]] const drivers::Y4mHeader& header() const { return header_; }
+  /// What it says of the order of lines.
+  [[nodiscard]] drivers::Y4mInterlacing interlacing() const { return header_.interlacing; }
+
  private:
   static core::Result<void> read_foreign(const std::string& file, drivers::GreyPicture& picture,
                                          std::string& message);
@@ -49,7 +56,9 @@ class StillReader {
                                 std::string& message);
 
   drivers::Y4mReader reader_;
-  std::string open_;  ///< the recording in reader_; empty: none, or one that failed
+  drivers::Y4mHeader header_;
+  ProgressLine progress_;  ///< of frames that are passed over
+  std::string open_;       ///< the recording in reader_; empty: none, or one that failed
 };
 
 }  // namespace tubesight::board

@@ -2,11 +2,24 @@
 
 #include <cstdio>
 
+#include "board/bench/output/progress_line.h"
 #include "drivers/files/commit_together.h"
 
 namespace tubesight::board {
+namespace {
 
-void tell(const std::string& message) { std::fprintf(stderr, "%s\n", message.c_str()); }
+Talk how_much = Talk::kUsual;
+
+}  // namespace
+
+void set_talk(Talk talk) { how_much = talk; }
+
+Talk talk() { return how_much; }
+
+void tell(const std::string& message) {
+  ProgressLine::erase_shown();
+  std::fprintf(stderr, "%s\n", message.c_str());
+}
 
 void tell(const std::vector<std::string>& messages) {
   for (const std::string& message : messages) {
@@ -14,7 +27,25 @@ void tell(const std::vector<std::string>& messages) {
   }
 }
 
+void tell_more(const std::string& message) {
+  if (how_much == Talk::kVerbose) {
+    tell(message);
+  }
+}
+
+void tell_files(const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files) {
+    text += text.empty() ? file + ": read" : (&file == &files[1] ? ", with " : ", ") + file;
+  }
+  tell_more(text);
+}
+
 bool write_out(const std::string& text, bool taken) {
+  ProgressLine::erase_shown();
+  if (how_much == Talk::kQuiet) {
+    return true;
+  }
   if (taken) {
     std::fputs(text.c_str(), stderr);
     return true;

@@ -16,7 +16,7 @@ constexpr double kShareOfStep = 0.8;
 }  // namespace
 
 FrameGaps find_frame_gaps(const core::SessionSettings& settings, const std::string& recording,
-                          std::int64_t first, std::int64_t last) {
+                          std::int64_t first, std::int64_t last, bool ignore_scan_flag) {
   const auto wrong = [](const drivers::Messages& messages) {
     FrameGaps gaps{ExitStatus::kWrongInput, {}};
     for (const std::string& message : messages) {
@@ -25,8 +25,13 @@ FrameGaps find_frame_gaps(const core::SessionSettings& settings, const std::stri
     return gaps;
   };
   drivers::ReplayFrameGrabber grabber(settings.camera, recording);
-  if (std::string why; !feed(grabber, recording, why) || !grabber.start()) {
-    return wrong(why.empty() ? grabber.messages() : drivers::Messages{why});
+  if (ignore_scan_flag) {
+    grabber.ignore_scan_flag();
+  }
+  std::string unread;
+  drivers::Messages messages;
+  if (!feed(grabber, recording, unread) || !start(grabber, messages)) {
+    return wrong(unread.empty() ? messages : drivers::Messages{unread});
   }
   const auto lattice = core::tubesheet::make_lattice<double>(settings.tubesheet);
   if (!lattice) {

@@ -20,9 +20,10 @@ struct FrameGaps {
 ///
 /// Each field must be good, come after the one before and be numbered on, and its time must be too
 /// short for [motion] to cover 0.8 of the distance between neighbouring tubes. kWrongInput: the
-/// recording or its meta file cannot be used.
+/// recording or its meta file cannot be used. With `ignore_scan_flag` the settings say the order of
+/// lines, whatever the recording's flag says.
 [[nodiscard]] FrameGaps find_frame_gaps(const core::SessionSettings& settings,
                                         const std::string& recording, std::int64_t first,
-                                        std::int64_t last);
+                                        std::int64_t last, bool ignore_scan_flag = false);
 
 }  // namespace tubesight::board

@@ -13,6 +13,7 @@
 #include "board/bench/input/recording_input.h"
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/pose_rows.h"
+#include "board/bench/output/progress_line.h"
 #include "board/bench/output/still_averager.h"
 #include "board/bench/output/still_reader.h"
 #include "board/bench/output/text_output.h"
@@ -45,17 +46,21 @@ class PoseRun {
     if (!open()) {
       return ExitStatus::kWrongInput;
     }
-    StillAverager averager(settings().camera);
+    StillAverager averager(settings().camera, options_.ignore_scan_flag);
     const std::span<const Still> stills = stills_;
     const std::size_t at_once = options_.average ? stills.size() : 1;
     ExitStatus status = ExitStatus::kDone;
+    ProgressLine progress;
     for (std::size_t i = 0; i < stills.size(); i += at_once) {
+      progress.update(ProgressLine::Clock::now(), stills[i].name(),
+                      static_cast<double>(i) / static_cast<double>(stills.size()));
       const ExitStatus one = take(averager, stills.subspan(i, at_once));
       if (one == ExitStatus::kWrongInput) {
         return one;
       }
       status = one == ExitStatus::kDone ? status : one;
     }
+    progress.erase();
     if (poses_ > 0 && !write()) {
       return ExitStatus::kJobFailed;
     }
@@ -73,6 +78,9 @@ class PoseRun {
     const bool good = static_cast<bool>(
         drivers::load_session_settings(options_.session, drivers::kPoseNeeds, file_, messages));
     tell(messages);
+    if (good) {
+      tell_files(file_.files);
+    }
     return good && make_model() && take_stills() && take_starts() && take_tubes() &&
            take_extras() && outputs_fit();
   }
@@ -165,8 +173,9 @@ class PoseRun {
   bool take_tubes() {
     // [start] was clicked in the first frame of a recording and counts as in a replay; places named
     // for the frames asked for are those of the first of them, whatever the recording tells.
-    const StartFrame where =
-        options_.start.empty() ? StartFrame{0, true} : StartFrame{frames_.first, false};
+    const StartFrame where = options_.start.empty()
+                                 ? StartFrame{0, true, options_.ignore_scan_flag}
+                                 : StartFrame{frames_.first, false, options_.ignore_scan_flag};
     tubes_.emplace(settings(), StillClicks{starts_, where, options_.only_start}, cold_.get());
     if (starts_.empty()) {
       return true;  // each still by itself

@@ -17,6 +17,7 @@ struct PoseCommandOptions {
   std::string start;   ///< "R,C,U,V;…"; empty: [start] of the session
   bool only_start = false;
   bool average = false;
+  bool ignore_scan_flag = false;
   std::string csv;
   std::string covariance;
   std::string overlay;

@@ -53,8 +53,8 @@ TubesFound StillTubes::find(std::span<const Still> stills) {
     }
     // A frame that was clicked in must be a good one; a tracked one is.
     if (run.size() > 1 || (was_clicked(run.front()) && has_meta(run.front()))) {
-      const FrameGaps gaps =
-          find_frame_gaps(settings_, run.front().file, run.front().frame, run.back().frame);
+      const FrameGaps gaps = find_frame_gaps(settings_, run.front().file, run.front().frame,
+                                             run.back().frame, clicks_.where.ignore_scan_flag);
       if (gaps.status != ExitStatus::kDone) {
         return refused(gaps.status, gaps.status == ExitStatus::kJobFailed
                                         ? run.front().file + ": no pose: " + gaps.message

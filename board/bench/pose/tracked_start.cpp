@@ -70,8 +70,10 @@ struct TrackedStart::Run {
       trouble = why;
       return false;
     }
-    bool good = static_cast<bool>(grabber.start());
-    messages = grabber.messages();
+    if (where.ignore_scan_flag) {
+      grabber.ignore_scan_flag();
+    }
+    bool good = start(grabber, messages);
     if (where.with_events) {
       good = static_cast<bool>(events.load_beside(recording, messages)) && good;
     }
@@ -159,7 +161,8 @@ std::string TrackedStart::expand(const std::string& recording) {
   if (cold_ == nullptr || clicks_.size() >= kWholeStart) {
     return {};
   }
-  const RecordedField field = read_first_field(settings_.camera, recording, where_.frame);
+  const RecordedField field =
+      read_first_field(settings_.camera, recording, where_.frame, where_.ignore_scan_flag);
   if (!field.message.empty()) {
     return field.message;
   }

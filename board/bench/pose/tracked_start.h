@@ -17,6 +17,7 @@ namespace tubesight::board {
 struct StartFrame {
   std::int64_t frame = 0;   ///< counted from 0; the clicks hold in its first field
   bool with_events = true;  ///< starts of the recording's event file count, too, as in a replay
+  bool ignore_scan_flag = false;  ///< the settings say the order of lines, not the recording
 };
 
 /// Where the tube-ends of a recording are in one of its frames.

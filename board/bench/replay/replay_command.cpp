@@ -42,8 +42,7 @@ class Replay {
  public:
   explicit Replay(const ReplayOptions& options)
       : options_(options),
-        recording_(options.recording == kStandardStream ? "standard input" : options.recording),
-        progress_(stderr, standard_error_is_terminal() && !options.quiet) {}
+        recording_(options.recording == kStandardStream ? "standard input" : options.recording) {}
 
   ExitStatus run() {
     if (!open_inputs() || !open_outputs()) {
@@ -80,10 +79,13 @@ class Replay {
     needed.start = !has_state_;  // a box may have been started by its robot
     good =
         drivers::load_session_settings(options_.session, needed, *session_file_, messages) && good;
+    if (good) {
+      tell_files(session_file_->files);
+    }
     // A recording can be judged only against sound settings, its events without any.
     if (good) {
       grabber_ = make_grabber(messages);
-      good = grabber_ != nullptr && start_grabber(messages);
+      good = grabber_ != nullptr && start(*grabber_, messages);
     }
     good = good && (has_state_ || fields_come_often_enough(messages));
     if (!from_standard_input()) {
@@ -132,15 +134,6 @@ class Replay {
     }
     grabber->choose(frame_choice());
     return grabber;
-  }
-
-  bool start_grabber(drivers::Messages& messages) {
-    const bool started = static_cast<bool>(grabber_->start());
-    messages.insert(messages.end(), grabber_->messages().begin(), grabber_->messages().end());
-    if (grabber_->scan_disagrees()) {
-      messages.back() += "; where the recording's flag is what is wrong: --ignore-scan-flag";
-    }
-    return started;
   }
 
   /// One or two clicks become a start by the lattice in the first field. Where they do not, the
@@ -250,9 +243,14 @@ class Replay {
     return true;
   }
 
+  /// What is known of the length, where somebody looks at the progress.
+  [[nodiscard]] double length_s() const {
+    return progress_.shown() ? told_length_s(options_.recording).value_or(0.0) : 0.0;
+  }
+
   ReplayEnd replay() {
-    ReplayInputs inputs{options_.session, recording_, session_file_->settings,
-                        *grabber_,        events_,    {}};
+    ReplayInputs inputs{
+        options_.session, recording_, session_file_->settings, *grabber_, events_, {}, length_s()};
     if (has_state_) {
       inputs.state = std::as_bytes(std::span(state_.data(), state_.size()));
     }
@@ -273,33 +271,20 @@ class Replay {
     return replay_fields<core::FixedPoint>(inputs, outputs);
   }
 
-  /// With `--verbose`; and of --from what whoever clicked has to know.
+  /// With `-v`; and of --from what whoever clicked has to know.
   void tell_how_read() const {
     if (options_.from_s > 0.0 && !has_state_ && !session_file_->settings.start.tubes.empty()) {
       tell(options_.session +
            ": start: taken to be clicked in the first field from --from on, and earlier events are "
            "left out");
     }
-    if (!options_.verbose) {
-      return;
+    if (talk() == Talk::kVerbose) {
+      std::string text = how_read(options_.recording, grabber_->header());
+      text += grabber_->interlaced() ? ", taken as interlaced" : ", taken as progressive";
+      text += grabber_->has_meta() ? ", times by its meta file" : ", no meta file";
+      drivers::print(text, ", %lld events", static_cast<long long>(events_.size()));
+      tell_more(text);
     }
-    const drivers::Y4mHeader& header = grabber_->header();
-    std::string text = recording_ + ": ";
-    drivers::print(text, "%d x %d pixels, %d bits, %s", header.width_px, header.height_px,
-                   header.depth_bits, grabber_->interlaced() ? "interlaced" : "progressive");
-    if (header.rate_numerator > 0) {
-      drivers::print(text, ", %.3f frames a second",
-                     static_cast<double>(header.rate_numerator) /
-                         static_cast<double>(header.rate_denominator));
-    }
-    switch (kind_of_recording(options_.recording)) {
-      case RecordingKind::kY4m:
-      case RecordingKind::kStandardInput: text += ", read by itself"; break;
-      case RecordingKind::kVideo: text += ", read through ffmpeg"; break;
-    }
-    text += grabber_->has_meta() ? ", times by its meta file" : ", no meta file";
-    drivers::print(text, ", %lld events", static_cast<long long>(events_.size()));
-    tell(text);
   }
 
   void tell_events_left() {
@@ -358,7 +343,7 @@ class Replay {
     const bool taken =
         goes_to_standard_output({options_.fields, options_.centers, options_.poses, options_.pairs,
                                  options_.replies, options_.summary});
-    if (!options_.quiet && !write_out(summary_text(facts(cut_short), statistics_), taken)) {
+    if (!write_out(summary_text(facts(cut_short), statistics_), taken)) {
       return ExitStatus::kJobFailed;
     }
     const std::string lost = options_.must_track ? why_not_tracked(recording_, statistics_) : "";

@@ -1,5 +1,6 @@
 #include "board/bench/replay/replay_job.h"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -145,7 +146,7 @@ class ReplayJob {
       return written;
     }
     out_.progress.update(ProgressLine::Clock::now(), out_.statistics.fields(), field.mid_exposure,
-                         in_.grabber.share_read());
+                         share_done(field.mid_exposure));
     if (const auto written =
             out_.results.add(field.number, field.parity, output.sighting, output.tubes);
         !written) {
@@ -153,6 +154,21 @@ class ReplayJob {
       return written;
     }
     return show(output.sighting);
+  }
+
+  /// Of the job: by what was read of a file, by the length that a video tells, or by --to,
+  /// whichever comes to its end first. Below 0: nobody knows.
+  [[nodiscard]] double share_done(core::FieldTime time) const {
+    const double now_s = std::chrono::duration<double>(time).count();
+    double share = in_.grabber.share_read();
+    if (share < 0.0 && in_.length_s > 0.0) {
+      share = now_s / in_.length_s;
+    }
+    const core::FieldTime to = in_.grabber.choice().to;
+    if (to != core::FieldTime::max() && to > core::FieldTime{0}) {
+      share = std::max(share, now_s / std::chrono::duration<double>(to).count());
+    }
+    return share;
   }
 
   Result<void> write_down_replies(const core::session::Output& output) {

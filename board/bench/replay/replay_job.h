@@ -31,6 +31,7 @@ struct ReplayInputs {
   /// The session's state before the first field, as a box's recorder wrote it; without one the
   /// session begins with the recording, and with the settings' start.
   std::optional<std::span<const std::byte>> state;
+  double length_s = 0.0;  ///< of a video, as it says of itself; 0: not known
 };
 
 /// What a replay writes; all opened, nothing committed.

@@ -25,8 +25,6 @@ struct ReplayOptions {
   std::int64_t every = 1;
   bool ignore_scan_flag = false;
   bool must_track = false;
-  bool quiet = false;
-  bool verbose = false;
   bool overlay_estimates = false;
   ScalarChoice scalar = ScalarChoice::kFixed;
 };

@@ -70,6 +70,7 @@ ExitStatus run_simulate(const SimulateOptions& options) {
   if (!good) {
     return ExitStatus::kWrongInput;
   }
+  tell_files(file->files);
   if (const std::string conflict = find_output_conflict(options, *file); !conflict.empty()) {
     tell(conflict);
     return ExitStatus::kWrongInput;
@@ -85,12 +86,14 @@ ExitStatus run_simulate(const SimulateOptions& options) {
       !why.empty()) {
     tell(options.scenario + ": the recording can be drawn and not be tracked: " + why);
   }
+  tell_more(options.scenario + ": seed " + std::to_string(file->scenario.seed) + ", " +
+            std::to_string(world->slots()) + " fields to draw");
   RecordingFiles files;
   if (!files.open(options.out, file->scenario, heading(options, *file))) {
     tell(files.message());
     return ExitStatus::kWrongInput;
   }
-  ProgressLine progress(stderr, standard_error_is_terminal());
+  ProgressLine progress;
   drivers::SimulatedField field;
   std::int64_t delivered = 0;
   while (world->next_slot(field)) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "board/bench/output/text_output.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -79,6 +81,39 @@ TEST(ProgressLine, SaysWordsOfAnotherJobOverLongerOnes) {
   EXPECT_EQ(stream.text(), "\rview 10 of 12\rview 12      \r             \r");
 }
 
+TEST(ProgressLine, SaysThePaceWhereNobodyKnowsTheEnd) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, 1, seconds(0));
+  line.update(kStart + seconds(2), 500, seconds(10));
+
+  EXPECT_EQ(stream.text(), "\r500 fields, 10.0 s of the recording, 250 fields a second");
+}
+
+TEST(ProgressLine, SaysTheShareOfAnyJob) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, "view 1 of 4", 0.0);
+  line.update(kStart + seconds(3), "view 2 of 4", 0.25);
+  line.update(kStart + seconds(6), std::string(90, 'x'), 0.5);
+
+  EXPECT_EQ(stream.text(),
+            "\rview 2 of 4, 25 %, 0:09 left\r" + std::string(62, 'x') + ", 50 %, 0:06 left");
+}
+
+TEST(ProgressLine, GivesWayToAMessage) {
+  const Stream stream;
+  ProgressLine line(stream.file(), true);
+  line.update(kStart, "view 1");
+  line.update(kStart + seconds(1), "view 2");
+  testing::internal::CaptureStderr();
+
+  tell("a message");
+
+  EXPECT_EQ(stream.text(), "\rview 2\r      \r");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "a message\n");
+}
+
 TEST(ProgressLine, WritesNothingForAShortJob) {
   const Stream stream;
   {
@@ -108,8 +143,8 @@ TEST(ProgressLine, IsErasedToItsLastCharacter) {
   {
     ProgressLine line(stream.file(), true);
     line.update(kStart, 1, seconds(0));
-    line.update(kStart + seconds(1), 100, seconds(16));
-    line.update(kStart + seconds(2), 9, seconds(1));  // shorter: padded to cover the longer one
+    line.update(kStart + milliseconds(600), 100, seconds(16));
+    line.update(kStart + milliseconds(900), 9, seconds(1));  // shorter: padded to cover the other
   }
 
   const std::string first = "100 fields, 16.0 s of the recording";
