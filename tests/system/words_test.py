@@ -123,6 +123,11 @@ class Words(Folder):
             (self.folder / "s.toml").write_text(session.replace("width_px = 635", f"width_px = {text}"))
             self.expect(["replay", "s.toml", "r.y4m.xz"], 2, f"camera.width_px: {said}")
 
+    def test_limits_are_written_as_people_do(self):
+        self.expect(["replay", "s.toml", "r.y4m.xz", "--to", "abc"], 2, "--to: Value abc not in range 0 to 4000000000 (")
+        self.expect(["campaign", "--hours", "0"], 2, "--hours: Value 0 not in range 0.000001 to 100000 (")
+        self.expect(["calibrate", "template", "t.pdf", "--dot-mm", "0"], 2, "Value 0 not in range 0.05 to 1000 (")
+
     def test_a_scenario_names_the_camera_s_key(self):
         camera = (REPOSITORY / "tests/data/scenarios/parts/camera.toml").read_text()
         sheet = (REPOSITORY / "tests/data/scenarios/parts/sheet-square.toml").read_text()
