@@ -1,5 +1,6 @@
 #include "board/bench/output/background_sink.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "drivers/files/commit_together.h"
@@ -12,21 +13,24 @@ using core::Unexpected;
 
 Result<void> BackgroundSink::open(const drivers::Y4mHeader& recording, bool interlaced) {
   TUBESIGHT_TRY(sink_->open(recording, interlaced));
-  worker_ = std::thread([this] { work(); });
+  for (std::thread& worker : workers_) {
+    worker = std::thread([this] { work(); });
+  }
   return {};
 }
 
 Result<void> BackgroundSink::add(std::int64_t field, const core::RgbImageView& picture) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return failed_ || count_ < kMostWaiting; });
+  Slot* free = nullptr;
+  changed_.wait(lock, [&] { return failed_ || (free = find_free()) != nullptr; });
   if (failed_) {
     lock.unlock();
     finish(false);  // nobody else uses its message then
     drivers::CommitTogether::fail_current();
     return Unexpected(Error::kIo);
   }
-  Waiting& slot = ring_[(first_ + count_) % kMostWaiting];
   lock.unlock();
+  Slot& slot = *free;
   const std::size_t line_bytes = 3 * static_cast<std::size_t>(picture.width_px);
   slot.field = field;
   slot.pixels.resize(line_bytes * static_cast<std::size_t>(picture.height_px));
@@ -36,30 +40,44 @@ Result<void> BackgroundSink::add(std::int64_t field, const core::RgbImageView& p
   }
   slot.picture = {slot.pixels.data(), picture.width_px, picture.height_px, 3 * picture.width_px};
   lock.lock();
-  ++count_;
+  slot.state = State::kWaiting;
+  slot.number = added_++;
   lock.unlock();
   changed_.notify_all();
   return {};
 }
 
+BackgroundSink::Slot* BackgroundSink::find_free() {
+  const auto slot = std::find_if(slots_.begin(), slots_.end(),
+                                 [](const Slot& each) { return each.state == State::kFree; });
+  return slot == slots_.end() ? nullptr : &*slot;
+}
+
+BackgroundSink::Slot* BackgroundSink::find_oldest() {
+  Slot* oldest = nullptr;
+  for (Slot& slot : slots_) {
+    if (slot.state == State::kWaiting && (oldest == nullptr || slot.number < oldest->number)) {
+      oldest = &slot;
+    }
+  }
+  return oldest;
+}
+
 void BackgroundSink::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return count_ > 0 || closing_; });
-    if (count_ == 0 || dropping_) {
+    Slot* next = nullptr;
+    changed_.wait(lock, [&] { return (next = find_oldest()) != nullptr || closing_ || failed_; });
+    if (next == nullptr || dropping_ || failed_) {
       return;
     }
-    const Waiting& next = ring_[first_];
+    next->state = State::kInWork;
     lock.unlock();
-    const bool good = static_cast<bool>(sink_->add(next.field, next.picture));
+    const bool good = static_cast<bool>(sink_->add(next->field, next->picture));
     lock.lock();
-    first_ = (first_ + 1) % kMostWaiting;
-    --count_;
-    failed_ = !good;
+    next->state = State::kFree;
+    failed_ = failed_ || !good;
     changed_.notify_all();
-    if (failed_) {
-      return;
-    }
   }
 }
 
@@ -70,8 +88,10 @@ void BackgroundSink::finish(bool all) {
     dropping_ = !all;
   }
   changed_.notify_all();
-  if (worker_.joinable()) {
-    worker_.join();
+  for (std::thread& worker : workers_) {
+    if (worker.joinable()) {
+      worker.join();
+    }
   }
 }
 

@@ -22,7 +22,10 @@ namespace tubesight::board {
 /// call.
 class BackgroundSink final : public OverlaySink {
  public:
-  explicit BackgroundSink(std::unique_ptr<OverlaySink> sink) : sink_(std::move(sink)) {}
+  /// With more than one worker pictures are added side by side and in no order: for a sink that
+  /// allows that of its add().
+  explicit BackgroundSink(std::unique_ptr<OverlaySink> sink, std::size_t workers = 1)
+      : sink_(std::move(sink)), workers_(workers) {}
   BackgroundSink(const BackgroundSink&) = delete;
   BackgroundSink& operator=(const BackgroundSink&) = delete;
   ~BackgroundSink() override { finish(false); }
@@ -37,25 +40,29 @@ class BackgroundSink final : public OverlaySink {
  private:
   static constexpr std::size_t kMostWaiting = 4;
 
-  struct Waiting {
+  enum class State : std::uint8_t { kFree, kWaiting, kInWork };
+  struct Slot {
+    State state = State::kFree;
+    std::uint64_t number = 0;  ///< in the order of add()
     std::int64_t field = 0;
     std::vector<std::uint8_t> pixels;  ///< without padding
     core::RgbImageView picture;
   };
 
+  Slot* find_free();
+  Slot* find_oldest();
   void work();
   void finish(bool all);
 
   std::unique_ptr<OverlaySink> sink_;
-  std::thread worker_;
+  std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  // Under the mutex; a picture that waits belongs to the worker until it is taken off.
-  std::array<Waiting, kMostWaiting> ring_;
-  std::size_t first_ = 0;
-  std::size_t count_ = 0;
+  // Under the mutex; a free slot's picture belongs to add(), one in work to its worker.
+  std::array<Slot, kMostWaiting> slots_;
+  std::uint64_t added_ = 0;
   bool failed_ = false;
-  bool closing_ = false;   ///< the worker ends when nothing waits
+  bool closing_ = false;   ///< the workers end when nothing waits
   bool dropping_ = false;  ///< and what waits is not wanted
 };
 

@@ -16,7 +16,10 @@ std::unique_ptr<OverlaySink> make_overlay_sink(const std::string& out) {
   if (drivers::FfmpegEncoder::encodes(out)) {
     return std::make_unique<EncodedVideo>(out);
   }
-  return std::make_unique<BackgroundSink>(std::make_unique<PictureFolder>(out));
+  // Compressing takes most of the time: beside the thread that tracks and draws, and in its place
+  // while that waits.
+  constexpr std::size_t kWorkers = 2;
+  return std::make_unique<BackgroundSink>(std::make_unique<PictureFolder>(out), kWorkers);
 }
 
 }  // namespace tubesight::board

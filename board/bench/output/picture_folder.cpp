@@ -87,8 +87,14 @@ Result<void> PictureFolder::open(const drivers::Y4mHeader&, bool) {
 
 Result<void> PictureFolder::add(std::int64_t field, const core::RgbImageView& picture) {
   const drivers::CommitAlone into_the_folder;
-  return drivers::write_png((fs::path(collecting_) / picture_name(field)).string(), picture,
-                            message_, drivers::PngGreys::kNear);
+  std::string message;
+  const auto written = drivers::write_png((fs::path(collecting_) / picture_name(field)).string(),
+                                          picture, message, drivers::PngGreys::kNear);
+  if (!written) {
+    const std::scoped_lock lock(message_mutex_);
+    message_ = std::move(message);
+  }
+  return written;
 }
 
 Result<void> PictureFolder::commit() {

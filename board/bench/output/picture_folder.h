@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -22,6 +23,7 @@ class PictureFolder final : public OverlaySink {
 
   [[nodiscard]] core::Result<void> open(const drivers::Y4mHeader& recording,
                                         bool interlaced) override;
+  /// May be called by several threads at once, each with pictures of its own.
   [[nodiscard]] core::Result<void> add(std::int64_t field,
                                        const core::RgbImageView& picture) override;
   [[nodiscard]] core::Result<void> commit() override;
@@ -31,7 +33,8 @@ class PictureFolder final : public OverlaySink {
   core::Result<void> fail(const char* what, const std::error_code& why);
 
   std::string folder_;
-  std::string collecting_;  ///< empty when there is nothing to remove
+  std::string collecting_;    ///< empty when there is nothing to remove
+  std::mutex message_mutex_;  ///< of add() alone
   std::string message_;
   int descriptor_ = -1;  ///< holds the lock of `collecting_`
   bool made_folder_ = false;
