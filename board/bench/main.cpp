@@ -18,7 +18,9 @@ int main(int argc, char** argv) {
   } catch (const std::exception& problem) {
     std::fprintf(stderr, "tubesight: stopped: %s\n", problem.what());
   }
-  if (std::fflush(stdout) != 0 && status == ExitStatus::kDone) {
+  // What fills the buffer may have failed before, and left nothing to flush.
+  const bool unsaid = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (unsaid && status == ExitStatus::kDone) {
     std::perror("standard output: cannot be written");
     status = ExitStatus::kJobFailed;
   }
