@@ -17,11 +17,14 @@
 #     A program, written to <build>/bin/<name>.
 #
 #   tubesight_add_test(<name> SOURCES x_test.cpp ... LINKS tubesight::... [LABELS ...]
-#                      [TIMEOUT seconds] [COST seconds])
+#                      [TIMEOUT seconds] [COST seconds] [COMPUTES])
 #
 #     One GoogleTest program with GoogleTest's own main; each TEST becomes a ctest entry, found when
 #     ctest runs, or the program is one entry (TUBESIGHT_WHOLE_PROGRAMS: where starting it costs).
 #     COST: what takes ten seconds or more anywhere, that ctest begins with it; it need not be exact.
+#     COMPUTES: compiled as the product is where a preset does not optimise tests. The linker takes the
+#     first of like inline functions, which are the tests' own: the product, too, then runs at their level,
+#     up to a hundred times slower where it computes with Eigen. Worth it where that outweighs compiling.
 #     Label `native` keeps it out of the emulated arm64 run, `real_time` out of that under sanitizers,
 #     `long` out of all but `./test.sh long`.
 #
@@ -270,7 +273,7 @@ function(tubesight_add_program name)
 endfunction()
 
 function(tubesight_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;COST" "SOURCES;LINKS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "COMPUTES" "TIMEOUT;COST" "SOURCES;LINKS;LABELS")
   if(DEFINED arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "tubesight_add_test(${name}): unknown '${arg_UNPARSED_ARGUMENTS}'")
   endif()
@@ -286,7 +289,14 @@ function(tubesight_add_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE
     tubesight::warnings tubesight::build_options ${arg_LINKS} GTest::gtest_main)
-  if("tests" IN_LIST TUBESIGHT_PRECOMPILE_HEADERS)
+  set(options ${TUBESIGHT_TEST_OPTIONS})
+  set(as_product FALSE)
+  if(arg_COMPUTES AND "-O0" IN_LIST options)
+    list(REMOVE_ITEM options -O0)
+    set(as_product TRUE)
+  endif()
+  # The precompiled header is of the other tests' level.
+  if("tests" IN_LIST TUBESIGHT_PRECOMPILE_HEADERS AND NOT as_product)
     target_precompile_headers(${name} REUSE_FROM tubesight_precompiled_tests)
     # In a precompiled std::string g++ 12 sees bounds trespassed that are none.
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
@@ -299,7 +309,7 @@ function(tubesight_add_test name)
   if("tests" IN_LIST TUBESIGHT_JOIN_SOURCES)
     tubesight_join_sources(${name})
   endif()
-  target_compile_options(${name} PRIVATE ${TUBESIGHT_TEST_OPTIONS})
+  target_compile_options(${name} PRIVATE ${options})
   target_compile_definitions(${name} PRIVATE
     $<$<BOOL:${TUBESIGHT_TESTS_FIXED_ONLY}>:TUBESIGHT_TESTS_FIXED_ONLY>
     TUBESIGHT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
