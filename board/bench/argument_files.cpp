@@ -157,4 +157,18 @@ std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
   return {};
 }
 
+std::string find_other_kind(const ArgumentFile& file, std::span<const FileKind> wanted) {
+  const FileKind kind = kind_of_file(file.path);
+  const bool good =
+      std::any_of(wanted.begin(), wanted.end(), [kind](FileKind one) { return fits(kind, one); });
+  if (good) {
+    return {};
+  }
+  std::string expected;
+  for (const FileKind one : wanted) {
+    expected += (expected.empty() ? "" : " or ") + std::string(words_of(one));
+  }
+  return "'" + file.path + "' is " + words_of(kind) + ", expected " + expected + " as " + file.name;
+}
+
 }  // namespace tubesight::board

@@ -38,4 +38,9 @@ struct ArgumentFile {
 [[nodiscard]] std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
                                         std::string_view usage);
 
+/// The same of one file that is the value of an option: it must be of one of the kinds `wanted`, of
+/// which there is one at least.
+[[nodiscard]] std::string find_other_kind(const ArgumentFile& file,
+                                          std::span<const FileKind> wanted);
+
 }  // namespace tubesight::board

@@ -190,6 +190,19 @@ std::string explain_refusal(const CLI::App& app, const CLI::ParseError& problem)
   return command.get_name() + ": " + text;
 }
 
+/// What the files that options name must be.
+const std::map<std::pair<std::string, std::string>, std::vector<FileKind>> kOptionFiles = {
+    {{"new", "--from"}, {FileKind::kRecording, FileKind::kPicture}},
+    {{"new", "--camera"}, {FileKind::kSettings, FileKind::kCameraYaml}},
+    {{"calibrate", "--sheet"}, {FileKind::kSettings}},
+    {{"calibrate", "--touches"}, {FileKind::kTable}},
+    {{"calibrate", "--points"}, {FileKind::kTable}},
+    {{"calibrate", "--base"}, {FileKind::kSettings}},
+    {{"calibrate", "--arm"}, {FileKind::kSettings, FileKind::kScenario}},
+    {{"campaign", "--resume"}, {FileKind::kTable}},
+    {{"campaign", "--merge"}, {FileKind::kTable}},
+};
+
 std::string find_wrong_arguments(const CLI::App& command) {
   std::vector<ArgumentFile> files;
   std::string what;
@@ -204,6 +217,11 @@ std::string find_wrong_arguments(const CLI::App& command) {
         what = value;
       } else if (option->get_positional()) {
         files.push_back({name, value});
+      } else if (const auto kinds = kOptionFiles.find({command.get_name(), name});
+                 kinds != kOptionFiles.end()) {
+        if (std::string wrong = find_other_kind({name, value}, kinds->second); !wrong.empty()) {
+          return command.get_name() + ": " + wrong;
+        }
       }
     }
   }

@@ -105,6 +105,16 @@ class Words(Folder):
         self.expect(["simulate", "r.y4m.xz", "--out", "x"], 2, "is a recording, expected a scenario")
         self.expect(["calibrate", "base", "s.toml"], 2, "expected a table (CSV) as FILE")
 
+    def test_an_option_s_file_of_another_kind(self):
+        self.expect(["new", "n.toml", "--from", "s.toml"], 2,
+                    "new: 's.toml' is a settings file, expected a recording or a picture as --from")
+        self.expect(["new", "n.toml", "--from", "r.y4m.xz", "--camera", self.still], 2,
+                    "is a picture, expected a settings file or a camera's file (YAML) as --camera")
+        self.expect(["calibrate", "base", "pairs.csv", "--sheet", "r.y4m.xz"], 2,
+                    "is a recording, expected a settings file as --sheet")
+        self.expect(["campaign", "--moves", "1", "--resume", "s.toml"], 2,
+                    "is a settings file, expected a table (CSV) as --resume")
+
     def test_help_and_version(self):
         version = run(self.folder, "--version")
         self.assertEqual(run(self.folder, "-V").stdout, version.stdout)
