@@ -1,5 +1,6 @@
 #include "drivers/ffmpeg/ffmpeg_decoder.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -20,6 +21,10 @@ using core::Unexpected;
 
 /// A stamp that has not come so long after its frame is taken for none, ms.
 constexpr int kPatience_ms = 10'000;
+
+/// Pictures that are read ahead of a late stamp: two of the largest.
+constexpr std::size_t kMostAhead = std::size_t{2} * 8192 * 8192 * 2;
+constexpr std::size_t kAheadChunk = 65536;
 
 /// The file, opened by us: so its name is none of a protocol, of a pattern or of an option, and
 /// tells nothing of its content.
@@ -42,7 +47,7 @@ std::vector<std::string> make_arguments(bool strict) {
           "-xerror", "-err_detect", strict ? "explode" : "crccheck",
           // Nor may its content point at a network.
           "-protocol_whitelist", "file,pipe", "-i", std::string("file:") + kFile,
-          // The stamps come first, so that a frame's is there when the frame is.
+          // The stamps come first, so that a frame's is mostly there when the frame is.
           "-map", "0:v:0", "-vf", "scale=16:16", "-fps_mode", "passthrough", "-enc_time_base", "-1",
           "-flush_packets", "1", "-f", "framecrc", "pipe:3",
           // The least loss is chosen: 8 bits from 8, 16 from more.
@@ -100,7 +105,10 @@ bool FfmpegDecoder::wait_for(Awaited what) {
     }
     // A negative descriptor is passed over.
     std::array<pollfd, 3> pipes{};
-    pipes[0] = {what == Awaited::kPicture ? ffmpeg_.output() : -1, POLLIN, 0};
+    // ffmpeg may write the next picture before a frame's stamp: unless that is taken, both wait.
+    const bool ahead =
+        what == Awaited::kNotes && pictures_open_ && ahead_.size() - ahead_given_ < kMostAhead;
+    pipes[0] = {what == Awaited::kPicture || ahead ? ffmpeg_.output() : -1, POLLIN, 0};
     pipes[1] = {words_open_ ? ffmpeg_.errors() : -1, POLLIN, 0};
     pipes[2] = {notes_open_ ? ffmpeg_.notes() : -1, POLLIN, 0};
     const int ready =
@@ -120,13 +128,39 @@ bool FfmpegDecoder::wait_for(Awaited what) {
     if (what == Awaited::kPicture && pipes[0].revents != 0) {
       return true;
     }
+    if (ahead && pipes[0].revents != 0) {
+      read_ahead();
+    }
   }
+}
+
+/// Takes what there is of the pictures. A failure is told by the read() that comes to it.
+void FfmpegDecoder::read_ahead() {
+  ahead_.erase(ahead_.begin(), ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_given_));
+  ahead_given_ = 0;
+  const std::size_t before = ahead_.size();
+  ahead_.resize(before + kAheadChunk);
+  ssize_t count = 0;
+  do {
+    count = ::read(ffmpeg_.output(), ahead_.data() + before, kAheadChunk);
+  } while (count < 0 && errno == EINTR);
+  pictures_open_ = count > 0;
+  ahead_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
 }
 
 Result<std::size_t> FfmpegDecoder::read(std::span<std::byte> into) {
   if (ended_) {
     return message_.empty() ? Result<std::size_t>(std::size_t{0})
                             : Unexpected(Error::kDisconnected);
+  }
+  if (ahead_given_ < ahead_.size()) {
+    const std::size_t count = std::min(into.size(), ahead_.size() - ahead_given_);
+    std::memcpy(into.data(), ahead_.data() + ahead_given_, count);
+    ahead_given_ += count;
+    return count;
+  }
+  if (!pictures_open_) {
+    return finish();
   }
   if (!wait_for(Awaited::kPicture)) {
     message_ = std::strerror(errno);
@@ -157,7 +191,16 @@ Result<std::size_t> FfmpegDecoder::finish() {
 }
 
 std::optional<FrameStamp> FfmpegDecoder::next_stamp() {
-  return wait_for(Awaited::kNotes) ? stamps_.next() : std::nullopt;
+  while (wait_for(Awaited::kNotes)) {
+    const auto stamp = stamps_.next();
+    if (late_stamps_ == 0) {
+      return stamp;
+    }
+    --late_stamps_;
+  }
+  // Should it still come, it is this frame's and not the next one's.
+  late_stamps_ += notes_open_ ? 1 : 0;
+  return std::nullopt;
 }
 
 }  // namespace tubesight::drivers

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "drivers/ffmpeg/child_process.h"
@@ -15,7 +19,8 @@ namespace tubesight::drivers {
 /// Any video or still that ffmpeg reads, as a YUV4MPEG2 recording of its first video stream in
 /// grey.
 ///
-/// ffmpeg runs in a process of its own and no faster than it is read: what waits is a pipe's worth.
+/// ffmpeg runs in a process of its own and no faster than it is read: what waits is a pipe's worth,
+/// and the picture after a frame whose stamp comes late, as ffmpeg may not write it before.
 /// The pixels are those of `ffmpeg -i VIDEO -pix_fmt gray -strict -1 out.y4m`, in 9 to 16 bits
 /// where the video has more than 8; frames are neither doubled nor dropped to even out the rate.
 /// The first error in decoding ends it: what a decoder makes up in place of damaged pictures is not
@@ -39,11 +44,16 @@ class FfmpegDecoder final : public StampedSource {
 
   enum class Awaited : unsigned char { kPicture, kNotes, kEnd };
   bool wait_for(Awaited what);
+  void read_ahead();
   core::Result<std::size_t> finish();
 
   ChildProcess ffmpeg_;
   FfmpegWords words_;
   FrameStamps stamps_;
+  std::vector<std::byte> ahead_;  ///< of the pictures, read while a stamp was waited for
+  std::size_t ahead_given_ = 0;   ///< of it
+  std::int64_t late_stamps_ = 0;  ///< of frames before, that will still come
+  bool pictures_open_ = true;
   bool words_open_ = true;
   bool notes_open_ = true;
   bool ended_ = false;

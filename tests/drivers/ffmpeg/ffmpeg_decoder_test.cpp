@@ -195,6 +195,33 @@ TEST(FfmpegDecoder, TellsThatAFileIsNotThere) {
   EXPECT_EQ(message, "No such file or directory");
 }
 
+// ffmpeg has threads: on a busy machine it writes the next picture before a frame's stamp, and
+// cannot end that while nobody reads it.
+TEST(FfmpegDecoder, TakesAStampThatComesBehindTheNextPicture) {
+  const TemporaryFolder folder;
+  folder.write("v.mp4", "");
+  folder.write("ffmpeg",
+               "#!/bin/sh\n"
+               "frame() { printf 'FRAME\\n'; head -c 307200 /dev/zero; }\n"
+               "printf '#tb 0: 1/30\\n' >&3\n"
+               "printf 'YUV4MPEG2 W640 H480 F30:1 Ip Cmono\\n'\n"
+               "frame; frame; printf '0, 7, 7, 1, 256, 0x0\\n' >&3\n"
+               "frame; printf '0, 8, 8, 1, 256, 0x0\\n0, 9, 9, 1, 256, 0x0\\n' >&3\n");
+  std::filesystem::permissions(folder.path("ffmpeg"), std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (folder.path("") + ":" + path).c_str(), 1);
+
+  const Read read = read_video(folder.path("v.mp4"));
+
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(read.end, Error::kEndOfData) << read.message;
+  ASSERT_EQ(read.stamps.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_TRUE(read.stamps[i]) << i;
+    EXPECT_EQ(read.stamps[i]->ticks, static_cast<std::int64_t>(7 + i));
+  }
+}
+
 TEST(FfmpegDecoder, NamesThePackageWhereFfmpegIsMissing) {
   const TemporaryFolder folder;
   folder.write("v.mp4", "x");
