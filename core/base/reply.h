@@ -18,7 +18,7 @@ enum class StartRefusal : std::uint8_t {
   kTooFew,         ///< fewer than three clicks
   kNoTubeThere,    ///< no dark tube-end around a click
   kSameTubeTwice,  ///< two clicks in one tube-end
-  kAddresses,      ///< the addresses contradict the lattice or its handedness
+  kAddresses,      ///< addresses, lattice (its handedness, too) and camera contradict each other
   kHeight,         ///< the tube-ends' distances do not fit a tool below this sheet
   kSize,           ///< the tube-ends' sizes do not fit the bore
   kPicture,        ///< the other tube-ends are not where the clicks put them

@@ -66,7 +66,7 @@ struct Words {
       return {"no-tube-there", "no dark tube-end around a click: plate, or no light of the lamp"};
     case StartRefusal::kSameTubeTwice: return {"same-tube-twice", "two clicks in one tube-end"};
     case StartRefusal::kAddresses:
-      return {"addresses", "the addresses contradict the lattice or its handedness"};
+      return {"addresses", "addresses, lattice and camera contradict each other"};
     case StartRefusal::kHeight:
       return {"height", "the tube-ends' distances do not fit a tool below this sheet"};
     case StartRefusal::kSize:
