@@ -23,7 +23,7 @@ PROGRAM = pathlib.Path()
 DAEMON = pathlib.Path()
 REPOSITORY = pathlib.Path()
 NOT_RUN = "tests/system/examples_not_run.txt"
-FEWEST_RUN = 25
+FEWEST_RUN = 22
 CALL = re.compile(r"^(?:\$ )?(?:sudo )?(?:[A-Z_]+=\S+ )?(?:(?:/usr/bin/)?python3 )?"
                   r"(?:tubesight(?:d|ctl|-slot)?|"
                   r"(?:\./|build/|docs/examples/|tests/benchmark/|board/|toolchain/|scripts/)\S*\w)(?= |$)")
