@@ -3,9 +3,9 @@
 
 Usage: documents.py ROOT | documents.py --self-test
 
-Links of README.md, CONTRIBUTING.md and docs/ lead to files of the repository, and to headings where they name one. Folders
-and files that CONTRIBUTING.md names in `code` exist: `core/base/` from the root, `result.h` anywhere,
-`drivers/<name>/` for one driver at least. Tests that docs/faults.md names are there: `Subject.Claim`, and
+Links of README.md, CONTRIBUTING.md and docs/ lead to files of the repository, nowhere else, and to headings where they
+name one. Each page of docs/ is linked from docs/README.md. Folders and files that CONTRIBUTING.md names in `code` exist:
+`core/base/` from the root, `result.h` anywhere, `drivers/<name>/` for one driver at least. Tests that docs/faults.md names are there: `Subject.Claim`, and
 `Class.step` of the emulated board's. No document holds the marks of a merge that nobody finished.
 """
 import pathlib
@@ -38,7 +38,7 @@ def anchors(text):
 
 def link_problem(root, path, target):
     if re.match(r"^[a-z]+:", target):
-        return None
+        return f"'{target}' leads out of the repository"
     name, _, anchor = target.partition("#")
     file = path.parent / name if name else path
     if root not in file.resolve().parents:
@@ -103,6 +103,11 @@ def check(root):
                 found += [f"`{code}` is no test" for code in CODE.findall(line)
                           if TEST.match(code) and code not in tests]
             problems += [f"{name}:{number}: {problem}" for problem in found if problem]
+    index = root / "docs" / "README.md"
+    linked = set(LINK.findall(index.read_text(encoding="utf-8"))) if index.exists() else set()
+    linked = {target.partition("#")[0] for target in linked}
+    problems += [f"docs/README.md: links no {path.name}" for path in sorted((root / "docs").glob("*.md"))
+                 if path != index and path.name not in linked]
     return problems, len(documents)
 
 
@@ -113,6 +118,7 @@ def self_test():
         "CONTRIBUTING.md": "`core/x/` `y.cpp` `drivers/<name>/` `drivers/<name>/y.cpp` `build/z` `R`\n"
                            "`./go.sh STAGE` `std::x` `a == b`\n`core/gone/` and `gone.h`\n"
                            "`board/<name>/`\n`core/x/y.cpp/`\n",
+        "docs/README.md": "[a](a.md#yes)\n",
         "docs/a.md": "# Yes\n<<<<<<< HEAD\n| x |\n[o](../../out.md)\n",
         "docs/faults.md": "`A.IsThere` `core/x` `a.B` `B.test_is`\n`A.IsGone`\n`A.test_is`\n",
         "tests/a_test.cpp": "TEST_F(A,\n       IsThere) {}\n// TEST(A, IsGone)\n",
@@ -126,11 +132,12 @@ def self_test():
         root = pathlib.Path(folder)
         plant(root, planted.items())
         found, _ = check(root)
-    expected = ["README.md:3: 'docs/b.md'", "README.md:4: 'docs/a.md#no'",
+    expected = ["README.md:2: 'https://example.org/x' leads out of", "README.md:3: 'docs/b.md'",
+                "README.md:4: 'docs/a.md#no'",
                 "CONTRIBUTING.md:3: `core/gone/`", "CONTRIBUTING.md:3: `gone.h`",
                 "CONTRIBUTING.md:4: `board/<name>/`", "CONTRIBUTING.md:5: `core/x/y.cpp/`",
                 "docs/a.md:2: a merge", "docs/a.md:4: '../../out.md' leads out of", "docs/faults.md:2: `A.IsGone`",
-                "docs/faults.md:3: `A.test_is`"]
+                "docs/faults.md:3: `A.test_is`", "docs/README.md: links no faults.md"]
     good = len(found) == len(expected) and all(
         problem.startswith(begin) for problem, begin in zip(found, expected))
     return report("documents --self-test",
