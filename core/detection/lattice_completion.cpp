@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "core/detection/expected_element.h"
-#include "core/detection/faint_element.h"
 #include "core/detection/lattice_finder.h"
 
 namespace tubesight::core::detection {
@@ -160,86 +159,6 @@ bool LatticeFinder::try_place(const picture::AveragedPicture& stretched, std::in
   }
   entry(row, column) = static_cast<std::int16_t>(found.elements.size());
   return found.elements.try_push_back(element);
-}
-
-/// Leaves out what little of an edge was found at where the light is that of a plug.
-void LatticeFinder::drop_closed(const picture::AveragedPicture& stretched, FoundLattice& found) {
-  std::int32_t kept = 0;
-  for (std::int32_t i = 0; i < found.elements.size(); ++i) {
-    const LatticeElement& element = found.elements[i];
-    const bool weak = (element.by_contrast || element.share < kPartOfEdge) &&
-                      half_axes(element.ellipse).y() >= kLeastMeasured_px;
-    if (!weak || !is_none(look_at_faint(stretched, element.ellipse))) {
-      found.elements[kept++] = element;
-    }
-  }
-  found.elements.truncate(kept);
-  fill_table(found);
-}
-
-/// Adds what shows no whole edge beside what was found: where that lets expect it, if its light is
-/// that of an open tube-end.
-void LatticeFinder::add_faint(const picture::AveragedPicture& stretched, FoundLattice& found) {
-  // The list grows while it is walked: what was added is a neighbour of the next.
-  for (std::int32_t i = 0; i < found.elements.size(); ++i) {
-    for (std::int32_t side = 0; side < 9 && !found.elements.full(); ++side) {
-      LatticeElement element;
-      element.row = found.elements[i].row + side / 3 - 1;
-      element.column = found.elements[i].column + side % 3 - 1;
-      if (in_table(element.row, element.column) && entry(element.row, element.column) < 0 &&
-          look_for_faint(stretched, found, element)) {
-        entry(element.row, element.column) = static_cast<std::int16_t>(found.elements.size());
-        static_cast<void>(found.elements.try_push_back(element));
-      }
-    }
-  }
-}
-
-/// Looks whether there is a tube-end where its neighbours let expect it; again when it has got
-/// more of them.
-bool LatticeFinder::look_for_faint(const picture::AveragedPicture& stretched,
-                                   const FoundLattice& found, LatticeElement& element) {
-  constexpr std::int32_t kLooked = -10;  // in the table, less the neighbours there were
-  std::int32_t looked = kLooked;
-  for (std::int32_t k = 0; k < 9; ++k) {
-    looked -= entry(element.row + k / 3 - 1, element.column + k % 3 - 1) >= 0 ? 1 : 0;
-  }
-  std::int16_t& before = entry(element.row, element.column);
-  LocalMap map;
-  if (before <= looked || !map.fit(around(found, element.row, element.column, false), lens_)) {
-    return false;
-  }
-  before = static_cast<std::int16_t>(looked);
-  element.ellipse = map.element(found.steps);
-  if (!(half_axes(element.ellipse).y() >= kLeastMeasured_px)) {
-    return false;
-  }
-  const FaintLook look = look_at_faint(stretched, element.ellipse);
-  if (!is_open(look) &&
-      !(may_be_beside(look) && look_beside_place(stretched, map, found, element))) {
-    return false;
-  }
-  element.center_px = map.center_of(element.ellipse);
-  element.by_contrast = true;
-  element.faint = true;
-  return true;
-}
-
-/// The same where the edge is clear but farther off than it was looked for: where the contrast
-/// along the outline is highest.
-bool LatticeFinder::look_beside_place(const picture::AveragedPicture& stretched,
-                                      const LocalMap& map, const FoundLattice& found,
-                                      LatticeElement& element) {
-  const double black = black_around(found, element.row, element.column);
-  element.ellipse = move_to_contrast(stretched, element.ellipse);
-  element.levels.black = black;
-  if (!is_open(look_at_faint(stretched, element.ellipse)) ||
-      !look_for_edge(stretched, found.steps, element_, element) || element.share < kPartOfEdge ||
-      !(strangeness(map, element.ellipse, found.steps, kNewcomer) <= 1.0)) {
-    return false;
-  }
-  element.levels = measure_levels(stretched, element.ellipse);
-  return !is_closed(element, black);
 }
 
 /// The same by a spot that was found near there and not ordered: far out, what the neighbours let

@@ -5,6 +5,7 @@
 
 #include "core/base/assert.h"
 #include "core/detection/expected_element.h"
+#include "core/detection/specks.h"
 #include "core/detection/spot_weight.h"
 
 namespace tubesight::core::detection {
@@ -48,19 +49,31 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
                                          static_cast<std::size_t>(picture.height_px));
   found.elements.clear();
   least_contrast_ = options.least_contrast;
-  if (const FinderRefusal refusal = find_blobs(picture, options); refusal != FinderRefusal::kNone) {
+  // The picture to look at: specks of noise set the thresholds of a dim one.
+  const picture::AveragedPicture clean =
+      options.with_faint ? remove_specks(picture, scratch) : picture;
+  if (const FinderRefusal refusal = find_blobs(clean, options, kShares);
+      refusal != FinderRefusal::kNone) {
     return refusal;
   }
   growth_.grow(blobs_, true, grown_[0]);
   growth_.grow(blobs_, false, grown_[1]);
-  found.dark = grown_[0].places.size() >= grown_[1].places.size();
+  const auto worth = [&](const Growth& growth) {
+    return options.with_faint ? area_of(growth) : static_cast<double>(growth.places.size());
+  };
+  found.dark = worth(grown_[0]) >= worth(grown_[1]);
   const Growth& growth = grown_[found.dark ? 0 : 1];
   if (growth.places.empty()) {
     return FinderRefusal::kNoLattice;
   }
   take_places(growth, found);
-  const picture::AveragedPicture stretched = stretch(picture, found.dark, scratch);
+  const picture::AveragedPicture stretched = stretch(clean, found.dark, scratch);
   measure_all(stretched, found);
+  if (options.with_faint && found.dark && has_few_edges(found) &&
+      !look_darker(stretched, options, found)) {
+    static_cast<void>(find_blobs(stretched, options, kShares));  // those of the lattice found
+    fill_table(found);
+  }
   straighten(stretched, found);
   find_centers(found);
   weigh_all(stretched, found);
@@ -73,6 +86,7 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
   drop_unsure(found);
   if (options.with_faint && found.dark) {
     drop_closed(stretched, found);
+    settle(stretched, found);
     add_faint(stretched, found);
   }
   find_centers(found);  // by centres now, as those before were by the ellipses' own
@@ -82,7 +96,8 @@ FinderRefusal LatticeFinder::find(const picture::AveragedPicture& picture,
 }
 
 FinderRefusal LatticeFinder::find_blobs(const picture::AveragedPicture& picture,
-                                        const FinderOptions& options) {
+                                        const FinderOptions& options,
+                                        std::span<const double> shares) {
   if (!thresholds_.measure(picture)) {
     return FinderRefusal::kSize;
   }
@@ -92,7 +107,7 @@ FinderRefusal LatticeFinder::find_blobs(const picture::AveragedPicture& picture,
   for (int round = 0; round < kRounds; ++round) {
     blobs_.clear();
     bool all = true;
-    for (const double share : kShares) {
+    for (const double share : shares) {
       if (!thresholds_.choose(share, options.least_contrast)) {
         return FinderRefusal::kFlat;
       }

@@ -15,7 +15,9 @@
 #include "core/detection/lattice_growth.h"
 #include "core/detection/lens_bend.h"
 #include "core/detection/local_map.h"
+#include "core/detection/portrait.h"
 #include "core/detection/threshold_map.h"
+#include "core/detection/verdict.h"
 #include "core/picture/averaged_picture.h"
 
 namespace tubesight::core::detection {
@@ -83,7 +85,12 @@ class LatticeFinder {
   static constexpr std::int32_t kSide = 2 * kMaxIndex + 1 + 2 * kMargin;
 
   [[nodiscard]] FinderRefusal find_blobs(const picture::AveragedPicture& picture,
-                                         const FinderOptions& options);
+                                         const FinderOptions& options,
+                                         std::span<const double> shares);
+  [[nodiscard]] static bool has_few_edges(const FoundLattice& found);
+  [[nodiscard]] bool look_darker(const picture::AveragedPicture& stretched,
+                                 const FinderOptions& options, FoundLattice& found);
+  [[nodiscard]] double area_of(const Growth& growth) const;
   void take_places(const Growth& growth, FoundLattice& found);
   void measure_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   void straighten(const picture::AveragedPicture& stretched, const FoundLattice& found);
@@ -107,11 +114,19 @@ class LatticeFinder {
                  std::int32_t column, FoundLattice& found);
   void drop_closed(const picture::AveragedPicture& stretched, FoundLattice& found);
   void add_faint(const picture::AveragedPicture& stretched, FoundLattice& found);
+  void add_faint_around(const picture::AveragedPicture& stretched, std::int32_t from,
+                        std::int32_t reach, FoundLattice& found);
   [[nodiscard]] bool look_for_faint(const picture::AveragedPicture& stretched,
                                     const FoundLattice& found, LatticeElement& element);
   [[nodiscard]] bool look_beside_place(const picture::AveragedPicture& stretched,
                                        const LocalMap& map, const FoundLattice& found,
                                        LatticeElement& element);
+  void settle(const picture::AveragedPicture& stretched, FoundLattice& found);
+  [[nodiscard]] Verdict look_at(const picture::AveragedPicture& stretched, const LocalMap& map,
+                                const FoundLattice& found, LatticeElement& element,
+                                Resemblance& whole);
+  [[nodiscard]] bool fit_weighed(const FoundLattice& found, std::int32_t row, std::int32_t column,
+                                 LocalMap& map) const;
   void find_centers(FoundLattice& found);
   static void weigh_all(const picture::AveragedPicture& stretched, FoundLattice& found);
   static void count_from_zero(FoundLattice& found);
@@ -127,7 +142,9 @@ class LatticeFinder {
   BlobList blobs_;
   LatticeGrowth growth_;
   std::array<Growth, 2> grown_;  ///< dark, bright
+  FoundLattice darker_;
   ElementScratch element_;
+  PortraitGallery gallery_;
   LensBend lens_;
   std::array<IndexedPoint, kMaxElements> indexed_{};
   std::array<std::array<double, kMaxElements>, 3> forms_{};

@@ -44,13 +44,14 @@ bool LocalMap::fit(std::span<const IndexedPoint> points, const LensBend& lens) {
   for (const IndexedPoint& point : points) {
     const Eigen::Vector3d m(point.index.x(), point.index.y(), 1.0);
     const Eigen::Vector2d p = (lens.straight(point.place_px) - origin_px_) / scale_px_;
-    plain += m * m.transpose();
-    by_u += p.x() * m.head<2>() * m.transpose();
-    by_v += p.y() * m.head<2>() * m.transpose();
-    by_square += p.squaredNorm() * m.head<2>() * m.head<2>().transpose();
-    right.head<3>() += p.x() * m;
-    right.segment<3>(3) += p.y() * m;
-    right.tail<2>() -= p.squaredNorm() * m.head<2>();
+    const double weight = point.weight;
+    plain += weight * m * m.transpose();
+    by_u += weight * p.x() * m.head<2>() * m.transpose();
+    by_v += weight * p.y() * m.head<2>() * m.transpose();
+    by_square += weight * p.squaredNorm() * m.head<2>() * m.head<2>().transpose();
+    right.head<3>() += weight * p.x() * m;
+    right.segment<3>(3) += weight * p.y() * m;
+    right.tail<2>() -= weight * p.squaredNorm() * m.head<2>();
   }
   Normal normal = Normal::Zero();
   normal.block<3, 3>(0, 0) = plain;

@@ -16,6 +16,7 @@ namespace tubesight::core::detection {
 struct IndexedPoint {
   Eigen::Vector2d index = Eigen::Vector2d::Zero();  ///< column, row, from the place asked for
   Eigen::Vector2d place_px = Eigen::Vector2d::Zero();
+  double weight = 1.0;  ///< what its place counts for: the inverse of its variance, to a factor
 };
 
 /// Elements that one local map is made from.

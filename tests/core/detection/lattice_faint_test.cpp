@@ -56,5 +56,48 @@ TEST(LatticeFinderInLittleLight, ATubeEndFilledWithLightIsMarkedFaintAndOnlyFoun
   EXPECT_EQ(faint, 1);
 }
 
+TEST(LatticeFinderInLittleLight, SpecksOfNoiseDoNotHideADimLattice) {
+  DrawnLattice drawn;
+  drawn.background = 22.0;
+  drawn.inside = 3.0;
+  picture::AveragedPicture picture = drawn.draw();
+  // Two pixels of each tile that thresholds are chosen by, or of the next.
+  for (int v = 3; v < drawn.height_px - 1; v += 11) {
+    for (int u = 5; u < drawn.width_px - 1; u += 13) {
+      drawn.cover(u, v, u, v, 255);
+    }
+  }
+  const auto finder = std::make_unique<LatticeFinder>();
+  const auto found = std::make_unique<FoundLattice>();
+  std::vector<std::uint16_t> scratch(drawn.pixels.size());
+  FinderOptions options;
+  options.with_faint = true;
+
+  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+
+  EXPECT_EQ(found->elements.size(), drawn.rows * drawn.columns);
+  for (const LatticeElement& element : found->elements) {
+    EXPECT_LT(
+        (element.center_px - drawn.pixel_of(drawn.center(element.row, element.column))).norm(),
+        0.5);
+  }
+}
+
+TEST(LatticeFinderInLittleLight, ATubeEndBeyondALaneOfPlugsIsFound) {
+  DrawnLattice drawn;
+  drawn.background = 60.0;
+  drawn.absent = [](int row, int column) { return row >= 6 ? column != 4 || row != 7 : row == 5; };
+  const picture::AveragedPicture picture = drawn.draw();
+  const auto finder = std::make_unique<LatticeFinder>();
+  const auto found = std::make_unique<FoundLattice>();
+  std::vector<std::uint16_t> scratch(drawn.pixels.size());
+  FinderOptions options;
+  options.with_faint = true;
+
+  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+
+  EXPECT_EQ(found->elements.size(), 5 * drawn.columns + 1);
+}
+
 }  // namespace
 }  // namespace tubesight::core::detection
