@@ -149,9 +149,11 @@ std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
   }
   for (const ArgumentFile& file : others) {
     const FileKind kind = kind_of_file(file.path);
-    if (kind != FileKind::kUnknown && !is_seen(kind)) {
-      return "'" + file.path + "' is " + words_of(kind) +
-             ", expected a picture or a recording as " + file.name;
+    const bool recording_alone = file.name == "RECORDING";
+    if (kind != FileKind::kUnknown &&
+        (!is_seen(kind) || (recording_alone && kind == FileKind::kPicture))) {
+      return "'" + file.path + "' is " + words_of(kind) + ", expected " +
+             (recording_alone ? "" : "a picture or ") + "a recording as " + file.name;
     }
   }
   return {};

@@ -34,7 +34,7 @@ struct ArgumentFile {
 /// expected SESSION.toml RECORDING". Empty when nothing is known to be wrong.
 ///
 /// `usage` is the arguments' order as the help tells it, `first` what the first must be; of the
-/// others pictures and recordings are expected.
+/// others pictures and recordings are expected, of RECORDING those alone.
 [[nodiscard]] std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
                                         std::string_view usage);
 

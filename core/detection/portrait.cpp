@@ -220,7 +220,7 @@ Resemblance PortraitGallery::compare(const picture::AveragedPicture& picture, co
   // Where the neighbours let expect it a place is to a pixel, or to a share of a large one's size.
   constexpr double kLeastSigma_px = 1.0;
   constexpr double kSigma = 0.05;
-  constexpr double kPerSigma2 = 0.05;  // of the correlation
+  constexpr double kPerSigma2 = 0.05;    // of the correlation
   constexpr double kWorthLooking = 0.2;  // below, a pixel more or less does not make it one
   const double radius_px = std::sqrt(std::abs(place.radius_px.determinant()));
   const double sigma_px = std::max(kLeastSigma_px, kSigma * radius_px);

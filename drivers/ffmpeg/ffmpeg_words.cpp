@@ -57,6 +57,9 @@ std::string FfmpegWords::in_one_line(const std::string& file) const {
   whole.end_line();
   const std::string_view first = without_file(without_object(whole.first_), file);
   const std::string_view last = without_file(without_object(whole.last_), file);
+  if (first.find("matches no streams") != std::string_view::npos) {
+    return "it holds no picture";
+  }
   std::string text(first);
   if (last != first) {
     text += "; ";

@@ -248,7 +248,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"FramesNotInOrder",
                 {"two.y4m", "--frames", "1-0", "--start", kThree},
                 2,
-                "--frames: '1-0', expected A-B or A, frames of a recording counted from 0"},
+                "--frames: '1-0', expected A-B or A: frames of a recording, counted from 0 to "
+                "99999, A not "
+                "behind B"},
         Refusal{"FramesEmpty",
                 {"two.y4m", "--frames", "", "--start", kThree},
                 2,

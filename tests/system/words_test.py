@@ -99,7 +99,8 @@ class Words(Folder):
         self.expect(["replay", "video.mp4", "s.toml"], 2, "swapped")
         self.expect(["calibrate", "s.toml", "tool"], 2, "expected calibrate tool s.toml")
         self.expect(["look", "s.toml"], 2, "'s.toml' is a settings file, expected a picture")
-        self.expect(["replay", "s.toml", "s.toml"], 2, "expected a picture or a recording as RECORDING")
+        self.expect(["replay", "s.toml", "s.toml"], 2, "expected a recording as RECORDING")
+        self.expect(["replay", "s.toml", self.still], 2, "is a picture, expected a recording as RECORDING")
         self.expect(["replay", "scenario.toml", "r.y4m.xz"], 2, "is a scenario (simulate draws it)")
         self.expect(["budget", "r.y4m.xz"], 2, "is a recording, expected a settings file as SETTINGS")
         self.expect(["simulate", "r.y4m.xz", "--out", "x"], 2, "is a recording, expected a scenario")
@@ -387,6 +388,14 @@ class New(Folder):
             self.assertIn(words, result.stderr)
             self.assertEqual((self.folder / "n.toml").exists(), status == 0)
             (self.folder / "n.toml").unlink(missing_ok=True)
+
+    def test_refuses_an_address_where_nothing_is_to_click_on(self):
+        (self.folder / "grey.pgm").write_bytes(b"P5 635 480 255\n" + bytes([90]) * (635 * 480))
+        result = run(self.folder, "new", "n.toml", "--from", "grey.pgm", "--scan", "progressive", *self.TOLD,
+                     "--at", "40,60", stdin=subprocess.DEVNULL)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn("--at: no tube-ends were found in the first frame, expected some", result.stderr)
+        self.assertFalse((self.folder / "n.toml").exists())
 
     def test_takes_the_camera_of_a_session(self):
         result = run(self.folder, "new", "n.toml", "--from", "r.y4m.xz", "--camera", "s.toml", *self.TOLD[4:],

@@ -314,7 +314,9 @@ class NewRun {
     std::string at = options_.at;
     if (!draft_.facts.lattice) {
       if (!at.empty()) {
-        tell("new: --at: no tube-ends were found in the first frame, the clicks are left out");
+        questions_.refuse(
+            "--at: no tube-ends were found in the first frame, expected some to click on; without "
+            "--at the session has no clicks");
       }
       return;
     }

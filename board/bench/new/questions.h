@@ -23,6 +23,9 @@ class Questions {
   bool ask(std::string_view option, std::string_view question, std::string_view usual,
            const std::function<bool(const std::string&)>& accept, std::string& value);
 
+  /// Adds a line to what would not do.
+  void refuse(const std::string& line) { missing_.push_back(line); }
+
   /// What was missing or would not do, a line each.
   [[nodiscard]] const std::vector<std::string>& missing() const { return missing_; }
 

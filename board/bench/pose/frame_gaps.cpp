@@ -13,17 +13,18 @@ namespace {
 /// Of the distance between neighbouring tubes: pictures at rest agree to a pixel, some 0.3 mm.
 constexpr double kShareOfStep = 0.8;
 
+FrameGaps wrong(const drivers::Messages& messages) {
+  FrameGaps gaps{ExitStatus::kWrongInput, {}};
+  for (const std::string& message : messages) {
+    gaps.message += (gaps.message.empty() ? "" : "\n") + message;
+  }
+  return gaps;
+}
+
 }  // namespace
 
 FrameGaps find_frame_gaps(const core::SessionSettings& settings, const std::string& recording,
                           std::int64_t first, std::int64_t last, bool ignore_scan_flag) {
-  const auto wrong = [](const drivers::Messages& messages) {
-    FrameGaps gaps{ExitStatus::kWrongInput, {}};
-    for (const std::string& message : messages) {
-      gaps.message += (gaps.message.empty() ? "" : "\n") + message;
-    }
-    return gaps;
-  };
   drivers::ReplayFrameGrabber grabber(settings.camera, recording);
   if (ignore_scan_flag) {
     grabber.ignore_scan_flag();

@@ -102,7 +102,7 @@ class PoseRun {
     if (!options_.frames.empty()) {
       if (!parse_frames(options_.frames, frames_)) {
         tell("--frames: " + drivers::in_quotes(options_.frames) +
-             ", expected A-B or A, frames of a recording counted from 0");
+             ", expected A-B or A: frames of a recording, counted from 0 to 99999, A not behind B");
         return false;
       }
       if (std::none_of(options_.images.begin(), options_.images.end(), is_named_as_recording)) {

@@ -5,6 +5,13 @@
 namespace tubesight::drivers {
 namespace {
 
+TEST(FfmpegWords, SayWhatAFileOfSoundAloneLacks) {
+  FfmpegWords words;
+  words.take(
+      "Stream map '0:v:0' matches no streams.\nTo ignore this, add a trailing '?' to the map.\n");
+  EXPECT_EQ(words.in_one_line("x"), "it holds no picture");
+}
+
 TEST(FfmpegWords, SaysCauseAndOutcomeInOneLine) {
   FfmpegWords words;
 
