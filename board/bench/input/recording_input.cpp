@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "board/bench/input/read_ahead_source.h"
 #include "drivers/ffmpeg/ffmpeg_decoder.h"
 #include "drivers/ffmpeg/video_length.h"
 #include "drivers/files/byte_source.h"
@@ -30,26 +31,29 @@ bool is_y4m_name(std::string_view name) {
   return name.ends_with(".y4m") || name.ends_with(".y4m.xz");
 }
 
-/// Whether the first bytes are those of a recording of ours, or cannot be read: then the reader
-/// says why.
-bool begins_as_y4m(const std::string& path) {
-  constexpr std::string_view kY4m = "YUV4MPEG2";
-  constexpr std::string_view kXz(
-      "\xFD"
-      "7zXZ\0",
-      6);
+constexpr std::string_view kY4m = "YUV4MPEG2";
+constexpr std::string_view kXz(
+    "\xFD"
+    "7zXZ\0",
+    6);
+
+/// The first bytes of a file, as many as kY4m has; none when it cannot be read.
+std::optional<std::string> first_bytes(const std::string& path) {
   std::unique_ptr<drivers::ByteSource> source;
   std::string ignored;
   if (!drivers::open_file(path, source, ignored)) {
-    return true;
+    return std::nullopt;
   }
   std::array<char, kY4m.size()> first{};
   const auto count = source->read(std::as_writable_bytes(std::span(first)));
-  if (!count) {
-    return true;
-  }
-  const std::string_view begin(first.data(), *count);
-  return begin == kY4m || begin.starts_with(kXz);
+  return count ? std::optional(std::string(first.data(), *count)) : std::nullopt;
+}
+
+/// Whether the first bytes are those of a recording of ours, or cannot be read: then the reader
+/// says why.
+bool begins_as_y4m(const std::string& path) {
+  const auto first = first_bytes(path);
+  return !first || *first == kY4m || first->starts_with(kXz);
 }
 
 Result<void> open_video(const std::string& path, std::unique_ptr<drivers::FfmpegDecoder>& source,
@@ -72,6 +76,20 @@ Result<void> open_standard_input(std::unique_ptr<drivers::ByteSource>& source,
     message = "standard input: cannot be read: " + why;
   }
   return opened;
+}
+
+/// Lets a compressed file be unpacked ahead. Whatever else it is, and whatever is wrong with it, is
+/// the grabber's to find.
+void read_ahead(drivers::ReplayFrameGrabber& grabber, const std::string& path) {
+  std::error_code ignored;
+  std::unique_ptr<drivers::ByteSource> file;
+  std::string why;
+  if (!std::filesystem::is_regular_file(path, ignored) ||
+      !first_bytes(path).value_or("").starts_with(kXz) || !drivers::open_file(path, file, why) ||
+      !drivers::decompress_if_xz(file, why)) {
+    return;
+  }
+  grabber.read_from(std::make_unique<ReadAheadSource>(std::move(file)), true);
 }
 
 }  // namespace
@@ -97,7 +115,7 @@ bool is_named_as_recording(std::string_view file) {
 Result<void> feed(drivers::ReplayFrameGrabber& grabber, const std::string& recording,
                   std::string& message) {
   switch (kind_of_recording(recording)) {
-    case RecordingKind::kY4m: return {};
+    case RecordingKind::kY4m: read_ahead(grabber, recording); return {};
     case RecordingKind::kStandardInput: {
       std::unique_ptr<drivers::ByteSource> source;
       TUBESIGHT_TRY(open_standard_input(source, message));
