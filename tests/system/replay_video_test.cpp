@@ -84,27 +84,6 @@ TEST(ReplayVideo, NamesTheWayOutWhereTheScanFlagIsWrong) {
   EXPECT_EQ(fields_of(folder, "r.mkv", {"--ignore-scan-flag"}), fields_of(folder, "r.y4m"));
 }
 
-TEST(ReplayVideo, EndsWithThreeWhereATrackThatWasAskedForIsLost) {
-  const TemporaryFolder folder;
-  folder.write("r.y4m", first_frames());
-  // Ten seconds are missing before the last frame.
-  std::string meta = "field,sequence,time_s,status,lamp_permille\n";
-  for (int field = 0; field < 2 * kTaken; ++field) {
-    const int number = field < 2 * (kTaken - 1) ? field : field + 600;
-    meta += std::to_string(field) + "," + std::to_string(number) + "," +
-            std::to_string(number / 60.0) + ",good,\n";
-  }
-  folder.write("r.meta.csv", meta);
-
-  const ProgramRun run = run_tubesight(
-      folder, {"replay", kFolder + "session.toml", "r.y4m", "--must-track", "--fields", "f.csv"});
-
-  EXPECT_EQ(run.status, 3) << run.err;
-  EXPECT_NE(run.err.find("r.y4m: lost at "), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("for --must-track\n"), std::string::npos) << run.err;
-  EXPECT_EQ(lines_of(folder.read("f.csv")), 1 + 2 * kTaken);
-}
-
 TEST(ReplayVideo, SaysInOneLineWhatIsWrong) {
   const TemporaryFolder folder;
   folder.write("s.toml", tiny_session());

@@ -3,16 +3,11 @@
 
 #include "core/detection/faint_element.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <random>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "core/picture/averaged_picture.h"
+#include "tests/core/detection/drawn_light.h"
 
 namespace tubesight::core::detection {
 namespace {
@@ -24,42 +19,12 @@ constexpr double kCenterV_px = 45.6;
 constexpr double kSheet = 18.0;  // grey levels above the picture's darkest
 
 /// A picture of a sheet with one place that `inside` colours: by x and y in radii from its middle.
-class DrawnPlace {
- public:
+struct DrawnPlace : DrawnLight {
   template <typename Inside>
-  explicit DrawnPlace(Inside inside, double noise = 2.0) {
-    std::mt19937 random(7);
-    std::normal_distribution<double> spread(0.0, noise);
-    for (int v = 0; v < kHeight; ++v) {
-      for (int u = 0; u < kWidth; ++u) {
-        // Four by four samples a pixel, or the outline would be a staircase.
-        double grey = 0.0;
-        for (int i = 0; i < 16; ++i) {
-          const double x = (u + 0.25 * (i % 4) - 0.375 - kCenterU_px) / kHalfWidth_px;
-          const double y = (v + 0.25 * (i / 4) - 0.375 - kCenterV_px) / kHalfHeight_px;
-          grey += inside(x, y) / 16.0;
-        }
-        pixels_.push_back(
-            static_cast<std::uint16_t>(std::lround(256.0 * std::max(0.0, grey + spread(random)))));
-      }
-    }
-  }
-
-  void cover(int left, int top, int right, int bottom, double grey) {
-    for (int v = top; v < bottom; ++v) {
-      for (int u = left; u < right; ++u) {
-        pixels_[static_cast<std::size_t>(v * kWidth + u)] =
-            static_cast<std::uint16_t>(256.0 * grey);
-      }
-    }
-  }
-
-  [[nodiscard]] picture::AveragedPicture view() const { return {pixels_.data(), kWidth, kHeight}; }
-
- private:
-  static constexpr int kWidth = 120;
-  static constexpr int kHeight = 90;
-  std::vector<std::uint16_t> pixels_;
+  explicit DrawnPlace(Inside inside, double noise = 2.0)
+      : DrawnLight(120, 90, noise, [&](double u, double v) {
+          return inside((u - kCenterU_px) / kHalfWidth_px, (v - kCenterV_px) / kHalfHeight_px);
+        }) {}
 };
 
 Ellipse expected(double off_px = 0.0) {

@@ -1,6 +1,7 @@
 // A lattice with a tube-end that a flat lamp fills with light: found where that is asked for.
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -15,6 +16,16 @@ namespace {
 
 constexpr int kRow = 2;
 constexpr int kColumn = 8;
+
+FinderRefusal find_in(const picture::AveragedPicture& picture, bool with_faint,
+                      FoundLattice& found) {
+  const auto finder = std::make_unique<LatticeFinder>();
+  std::vector<std::uint16_t> scratch(static_cast<std::size_t>(picture.width_px) *
+                                     static_cast<std::size_t>(picture.height_px));
+  FinderOptions options;
+  options.with_faint = with_faint;
+  return finder->find(picture, options, scratch, found);
+}
 
 TEST(LatticeFinderInLittleLight, ATubeEndFilledWithLightIsMarkedFaintAndOnlyFoundWhenAskedFor) {
   DrawnLattice drawn;
@@ -33,15 +44,11 @@ TEST(LatticeFinderInLittleLight, ATubeEndFilledWithLightIsMarkedFaintAndOnlyFoun
       }
     }
   }
-  const auto finder = std::make_unique<LatticeFinder>();
-  const auto found = std::make_unique<FoundLattice>();
-  std::vector<std::uint16_t> scratch(drawn.pixels.size());
-  FinderOptions options;
 
-  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+  const auto found = std::make_unique<FoundLattice>();
+  ASSERT_EQ(find_in(picture, false, *found), FinderRefusal::kNone);
   const std::int32_t without = found->elements.size();
-  options.with_faint = true;
-  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+  ASSERT_EQ(find_in(picture, true, *found), FinderRefusal::kNone);
 
   EXPECT_EQ(without, drawn.rows * drawn.columns - 1);
   EXPECT_EQ(found->elements.size(), without + 1);
@@ -67,13 +74,9 @@ TEST(LatticeFinderInLittleLight, SpecksOfNoiseDoNotHideADimLattice) {
       drawn.cover(u, v, u, v, 255);
     }
   }
-  const auto finder = std::make_unique<LatticeFinder>();
-  const auto found = std::make_unique<FoundLattice>();
-  std::vector<std::uint16_t> scratch(drawn.pixels.size());
-  FinderOptions options;
-  options.with_faint = true;
 
-  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+  const auto found = std::make_unique<FoundLattice>();
+  ASSERT_EQ(find_in(picture, true, *found), FinderRefusal::kNone);
 
   EXPECT_EQ(found->elements.size(), drawn.rows * drawn.columns);
   for (const LatticeElement& element : found->elements) {
@@ -88,13 +91,9 @@ TEST(LatticeFinderInLittleLight, ATubeEndBeyondALaneOfPlugsIsFound) {
   drawn.background = 60.0;
   drawn.absent = [](int row, int column) { return row >= 6 ? column != 4 || row != 7 : row == 5; };
   const picture::AveragedPicture picture = drawn.draw();
-  const auto finder = std::make_unique<LatticeFinder>();
-  const auto found = std::make_unique<FoundLattice>();
-  std::vector<std::uint16_t> scratch(drawn.pixels.size());
-  FinderOptions options;
-  options.with_faint = true;
 
-  ASSERT_EQ(finder->find(picture, options, scratch, *found), FinderRefusal::kNone);
+  const auto found = std::make_unique<FoundLattice>();
+  ASSERT_EQ(find_in(picture, true, *found), FinderRefusal::kNone);
 
   EXPECT_EQ(found->elements.size(), 5 * drawn.columns + 1);
 }

@@ -7,16 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <random>
-#include <vector>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "core/detection/verdict.h"
-#include "core/picture/averaged_picture.h"
+#include "tests/core/detection/drawn_light.h"
 
 namespace tubesight::core::detection {
 namespace {
@@ -60,43 +57,16 @@ double rolled_plug(double x, double y) {
   return std::hypot(x, y) < 1.0 ? 3.0 : kSheet;
 }
 
-class DrawnRow {
- public:
+struct DrawnRow : DrawnLight {
   /// `light`: of the lamp on the place in the middle, the others' being 1.
-  explicit DrawnRow(Look look, double light = 1.0, double noise = 0.5) {
-    std::mt19937 random(7);
-    std::normal_distribution<double> spread(0.0, noise);
-    for (int v = 0; v < kHeight; ++v) {
-      for (int u = 0; u < kWidth; ++u) {
-        const std::size_t place = std::min<std::size_t>(4, static_cast<std::size_t>(u / 70));
-        // Four by four samples a pixel, or the outline would be a staircase.
-        double grey = 0.0;
-        for (int i = 0; i < 16; ++i) {
-          const double x = (u + 0.25 * (i % 4) - 0.375 - kPlacesU_px[place]) / kHalfWidth_px;
-          const double y = (v + 0.25 * (i / 4) - 0.375 - kPlacesV_px) / kHalfHeight_px;
-          grey += (place == kDoubtful ? light * look(x, y) : bore(x, y)) / 16.0;
-        }
-        pixels_.push_back(
-            static_cast<std::uint16_t>(std::lround(256.0 * std::max(0.0, grey + spread(random)))));
-      }
-    }
-  }
-
-  void cover(int left, int top, int right, int bottom, double grey) {
-    for (int v = top; v < bottom; ++v) {
-      for (int u = left; u < right; ++u) {
-        pixels_[static_cast<std::size_t>(v * kWidth + u)] =
-            static_cast<std::uint16_t>(256.0 * grey);
-      }
-    }
-  }
-
-  [[nodiscard]] picture::AveragedPicture view() const { return {pixels_.data(), kWidth, kHeight}; }
-
- private:
-  static constexpr int kWidth = 360;
-  static constexpr int kHeight = 90;
-  std::vector<std::uint16_t> pixels_;
+  explicit DrawnRow(Look look, double light = 1.0, double noise = 0.5)
+      : DrawnLight(360, 90, noise, [&](double u, double v) {
+          const auto place =
+              std::min<std::size_t>(4, static_cast<std::size_t>(std::lround(u) / 70));
+          const double x = (u - kPlacesU_px[place]) / kHalfWidth_px;
+          const double y = (v - kPlacesV_px) / kHalfHeight_px;
+          return place == kDoubtful ? light * look(x, y) : bore(x, y);
+        }) {}
 };
 
 Sitting sitting(std::size_t place, double off_px = 0.0) {
