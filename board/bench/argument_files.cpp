@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -90,8 +91,6 @@ const char* words_of(FileKind kind) {
   return "a file";
 }
 
-bool is_seen(FileKind kind) { return kind == FileKind::kRecording || kind == FileKind::kPicture; }
-
 bool is_toml(FileKind kind) { return kind >= FileKind::kSettings; }
 
 /// Whether a file may stand where `wanted` is expected; what is not known may.
@@ -129,36 +128,6 @@ FileKind kind_of_file(const std::string& path) {
                                                                          : FileKind::kUnknown;
 }
 
-std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
-                          std::string_view usage) {
-  if (files.empty()) {
-    return {};
-  }
-  const FileKind leading = kind_of_file(files.front().path);
-  const auto others = files.subspan(1);
-  if (!fits(leading, first)) {
-    const auto swapped = std::find_if(others.begin(), others.end(), [&](const ArgumentFile& file) {
-      const FileKind kind = kind_of_file(file.path);
-      return kind != FileKind::kUnknown && fits(kind, first);
-    });
-    const std::string what = "'" + files.front().path + "' is " + words_of(leading);
-    return swapped == others.end()
-               ? what + ", expected " + words_of(first) + " as " + files.front().name
-               : what + " and '" + swapped->path + "' " + words_of(kind_of_file(swapped->path)) +
-                     ": they are swapped, expected " + std::string(usage);
-  }
-  for (const ArgumentFile& file : others) {
-    const FileKind kind = kind_of_file(file.path);
-    const bool recording_alone = file.name == "RECORDING";
-    if (kind != FileKind::kUnknown &&
-        (!is_seen(kind) || (recording_alone && kind == FileKind::kPicture))) {
-      return "'" + file.path + "' is " + words_of(kind) + ", expected " +
-             (recording_alone ? "" : "a picture or ") + "a recording as " + file.name;
-    }
-  }
-  return {};
-}
-
 std::string find_other_kind(const ArgumentFile& file, std::span<const FileKind> wanted) {
   const FileKind kind = kind_of_file(file.path);
   const bool good =
@@ -171,6 +140,35 @@ std::string find_other_kind(const ArgumentFile& file, std::span<const FileKind> 
     expected += (expected.empty() ? "" : " or ") + std::string(words_of(one));
   }
   return "'" + file.path + "' is " + words_of(kind) + ", expected " + expected + " as " + file.name;
+}
+
+std::string find_mixed_up(std::span<const ArgumentFile> files, FileKind first,
+                          std::string_view usage) {
+  if (files.empty()) {
+    return {};
+  }
+  const FileKind leading = kind_of_file(files.front().path);
+  const auto others = files.subspan(1);
+  if (!fits(leading, first)) {
+    const auto swapped = std::find_if(others.begin(), others.end(), [&](const ArgumentFile& file) {
+      const FileKind kind = kind_of_file(file.path);
+      return kind != FileKind::kUnknown && fits(kind, first);
+    });
+    return swapped == others.end()
+               ? find_other_kind(files.front(), std::array{first})
+               : "'" + files.front().path + "' is " + words_of(leading) + " and '" + swapped->path +
+                     "' " + words_of(kind_of_file(swapped->path)) +
+                     ": they are swapped, expected " + std::string(usage);
+  }
+  constexpr std::array kSeen = {FileKind::kPicture, FileKind::kRecording};
+  for (const ArgumentFile& file : others) {
+    const std::size_t pictures = file.name == "RECORDING" ? 1 : 0;  // which it may not be
+    if (std::string wrong = find_other_kind(file, std::span(kSeen).subspan(pictures));
+        !wrong.empty()) {
+      return wrong;
+    }
+  }
+  return {};
 }
 
 }  // namespace tubesight::board

@@ -11,10 +11,7 @@ RecordedField read_first_field(const core::CameraSettings& camera, const std::st
                                std::int64_t frame, bool ignore_scan_flag) {
   RecordedField read;
   drivers::ReplayFrameGrabber grabber(camera, recording);
-  if (ignore_scan_flag) {
-    grabber.ignore_scan_flag();
-  }
-  if (!feed(grabber, recording, read.message)) {
+  if (!feed(grabber, recording, ignore_scan_flag, read.message)) {
     return read;
   }
   return read_first_field(grabber, camera, recording, frame);

@@ -113,7 +113,10 @@ bool is_named_as_recording(std::string_view file) {
 }
 
 Result<void> feed(drivers::ReplayFrameGrabber& grabber, const std::string& recording,
-                  std::string& message) {
+                  bool ignore_scan_flag, std::string& message) {
+  if (ignore_scan_flag) {
+    grabber.ignore_scan_flag();
+  }
   switch (kind_of_recording(recording)) {
     case RecordingKind::kY4m: read_ahead(grabber, recording); return {};
     case RecordingKind::kStandardInput: {

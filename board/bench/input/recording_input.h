@@ -29,10 +29,12 @@ enum class RecordingKind : std::uint8_t {
 /// Whether a file's name ends as that of a recording or a video: `.y4m`, `.y4m.xz`, `.mp4` ...
 [[nodiscard]] bool is_named_as_recording(std::string_view file);
 
-/// Lets a grabber of `recording` read it however it is to be read; call before start(). Errors:
-/// kIo, kUnsupported ffmpeg is not installed; `message` is one line that begins with the name.
+/// Lets a grabber of `recording` read it however it is to be read, and the settings tell the order
+/// of lines with `ignore_scan_flag`; call before start(). Errors: kIo, kUnsupported ffmpeg is not
+/// installed; `message` is one line that begins with the name.
 [[nodiscard]] core::Result<void> feed(drivers::ReplayFrameGrabber& grabber,
-                                      const std::string& recording, std::string& message);
+                                      const std::string& recording, bool ignore_scan_flag,
+                                      std::string& message);
 
 /// What ends a message about a wrong flag of the order of lines: the way out.
 inline constexpr std::string_view kScanFlagWayOut =

@@ -26,12 +26,9 @@ FrameGaps wrong(const drivers::Messages& messages) {
 FrameGaps find_frame_gaps(const core::SessionSettings& settings, const std::string& recording,
                           std::int64_t first, std::int64_t last, bool ignore_scan_flag) {
   drivers::ReplayFrameGrabber grabber(settings.camera, recording);
-  if (ignore_scan_flag) {
-    grabber.ignore_scan_flag();
-  }
   std::string unread;
   drivers::Messages messages;
-  if (!feed(grabber, recording, unread) || !start(grabber, messages)) {
+  if (!feed(grabber, recording, ignore_scan_flag, unread) || !start(grabber, messages)) {
     return wrong(unread.empty() ? messages : drivers::Messages{unread});
   }
   const auto lattice = core::tubesheet::make_lattice<double>(settings.tubesheet);

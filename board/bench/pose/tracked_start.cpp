@@ -66,12 +66,9 @@ struct TrackedStart::Run {
   bool open(const core::SessionSettings& settings, StartFrame where) {
     drivers::Messages messages;
     std::string why;
-    if (!feed(grabber, recording, why)) {
+    if (!feed(grabber, recording, where.ignore_scan_flag, why)) {
       trouble = why;
       return false;
-    }
-    if (where.ignore_scan_flag) {
-      grabber.ignore_scan_flag();
     }
     bool good = start(grabber, messages);
     if (where.with_events) {

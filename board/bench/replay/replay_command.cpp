@@ -122,15 +122,12 @@ class Replay {
       return nullptr;
     }
     std::string why;
-    if (!feed(*grabber, options_.recording, why)) {
+    if (!feed(*grabber, options_.recording, options_.ignore_scan_flag, why)) {
       messages.push_back(why);
       return nullptr;
     }
     if (has_state_) {
       grabber->follow_rows();
-    }
-    if (options_.ignore_scan_flag) {
-      grabber->ignore_scan_flag();
     }
     grabber->choose(frame_choice());
     return grabber;
