@@ -1,0 +1,26 @@
+# What the server puts into the binary: index.html at /, the others under /page/.
+set(tubesight_page_files
+  box.js
+  dialog.js
+  disagreement.js
+  dom.js
+  freshness.js
+  icon.svg
+  index.html
+  live.js
+  main.js
+  marks.js
+  numbering.js
+  page.css
+  picture.js
+  screens.css
+  settings.js
+  sheet.js
+  sheet_export.js
+  sheet_map.js
+  sheet_sites.js
+  sheet_symbols.js
+  start.js
+  trouble.js
+  tube_panel.js
+  window_editor.js)
