@@ -19,6 +19,8 @@ bench=(
   ffmpeg                # videos of other kinds, at run time
   libyaml-dev           # cameras of OpenCV and ROS
   libmodbus-dev         # the robot's link
+  libsqlite3-dev        # the journal
+  libssl-dev            # its chain and its signatures
   libgpiod-dev          # a lamp on GPIO lines
   libaravis-dev         # cameras of GigE Vision and USB3 Vision
   libglib2.0-dev        # what its header stands on

@@ -23,6 +23,10 @@ packages=(
   libtomlplusplus-dev  # drivers/settings
   libmodbus5           # drivers/modbus
   libmodbus-dev        #
+  libsqlite3-0         # drivers/journal
+  libsqlite3-dev       #
+  libssl3              # its chain and its signatures
+  libssl-dev           #
   libgpiod2            # drivers/gpio
   libgpiod-dev         #
   libaravis-dev        # drivers/aravis: its header alone, the library is loaded at run time

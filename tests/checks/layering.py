@@ -53,6 +53,7 @@ MAY_INCLUDE = {
     "drivers/ffmpeg": BASE + ["drivers/files"],
     "drivers/recording": BASE + ["hal", "drivers/files"],
     "drivers/replay": BASE + ["hal", "drivers/files"],
+    "drivers/journal": BASE + ["hal"],
     "drivers/modbus": BASE + ["hal"],
     "drivers/simulated": BASE + ["hal", "core/tubesheet", "core/rendering", "core/kinematics"],
 }
@@ -81,6 +82,7 @@ DRIVER_LIBRARY = {
     "drivers/camera_yaml": re.compile(r"^yaml\.h$"),
     "drivers/files": re.compile(r"^((lzma|png|zlib)\.h|csetjmp)$"),  # libpng's way out of an error
     "drivers/gpio": re.compile(r"^gpiod\.h$"),
+    "drivers/journal": re.compile(r"^(openssl/(bio|evp|pem)|sqlite3)\.h$"),
     "drivers/modbus": re.compile(r"^(modbus/modbus|linux/serial|netinet/in)\.h$"),
     "drivers/settings": re.compile(r"^toml\+\+/"),
     "drivers/simulated": re.compile(r"^Eigen/Core$"),  # transforms are made of it

@@ -29,6 +29,8 @@ MATERIALS = {
     "libmodbus": ("LGPL-2.1-or-later", "linked"),
     "libpng1.6": ("libpng-2.0", "linked"),
     "libyaml": ("MIT", "linked"),
+    "openssl": ("Apache-2.0", "linked"),
+    "sqlite3": ("blessing", "linked"),
     "tomlplusplus": ("MIT", "compiled"),
     "xz-utils": ("LicenseRef-Public-Domain", "linked"),
     "zlib": ("Zlib", "linked"),

@@ -4,8 +4,8 @@ import subprocess
 
 # Of this machine's, when there is no sysroot: what is compiled in or linked with.
 PACKAGES = ["libaravis-dev", "libc6", "libcli11-dev", "libeigen3-dev", "libgcc-s1", "libgpiod2",
-            "liblzma5", "libmodbus5", "libpng16-16", "libstdc++6", "libtomlplusplus-dev", "libyaml-0-2",
-            "zlib1g"]
+            "liblzma5", "libmodbus5", "libpng16-16", "libsqlite3-0", "libssl3", "libstdc++6", "libtomlplusplus-dev",
+            "libyaml-0-2", "zlib1g"]
 
 
 def packages(sysroot):
