@@ -19,6 +19,10 @@ bench=(
   ffmpeg                # videos of other kinds, at run time
   libyaml-dev           # cameras of OpenCV and ROS
   libmodbus-dev         # the robot's link
+  libmicrohttpd-dev     # the operator's page
+  libgnutls28-dev       # its certificate
+  libjpeg62-turbo-dev   # its pictures
+  nlohmann-json3-dev    # what it is asked and answers
   libsqlite3-dev        # the journal
   libssl-dev            # its chain and its signatures
   libgpiod-dev          # a lamp on GPIO lines

@@ -23,6 +23,23 @@ packages=(
   libtomlplusplus-dev  # drivers/settings
   libmodbus5           # drivers/modbus
   libmodbus-dev        #
+  libmicrohttpd12      # drivers/web
+  libmicrohttpd-dev    #
+  libgnutls30          #
+  libgnutls28-dev      #
+  libjpeg62-turbo      #
+  libjpeg62-turbo-dev  #
+  libcrypt1            #
+  libcrypt-dev         #
+  libnettle8           # what GnuTLS stands on, for the linker
+  libhogweed6          #
+  libgmp10             #
+  libp11-kit0          #
+  libffi8              #
+  libidn2-0            #
+  libunistring2        #
+  libtasn1-6           #
+  nlohmann-json3-dev   # board/visionbox: the page's questions and answers
   libsqlite3-0         # drivers/journal
   libsqlite3-dev       #
   libssl3              # its chain and its signatures

@@ -35,7 +35,8 @@ WANTED = ["./etc/tubesight/box.toml", "./usr/lib/systemd/system/tubesightd.servi
     name for program in PROGRAMS for name in (
         f"./usr/bin/{program}", f"./usr/share/man/man1/{program}.1.gz",
         f"./usr/share/bash-completion/completions/{program}")]
-LIBRARIES = ["libc6", "libgpiod2", "liblzma5", "libmodbus5", "libpng16-16", "libsqlite3-0",
+LIBRARIES = ["libc6", "libcrypt1", "libgnutls30", "libgpiod2", "libjpeg62-turbo", "liblzma5",
+             "libmicrohttpd12", "libmodbus5", "libpng16-16", "libsqlite3-0",
              "libssl3", "libstdc++6", "libyaml-0-2"]
 
 

@@ -3,9 +3,11 @@ import pathlib
 import subprocess
 
 # Of this machine's, when there is no sysroot: what is compiled in or linked with.
-PACKAGES = ["libaravis-dev", "libc6", "libcli11-dev", "libeigen3-dev", "libgcc-s1", "libgpiod2",
-            "liblzma5", "libmodbus5", "libpng16-16", "libsqlite3-0", "libssl3", "libstdc++6", "libtomlplusplus-dev",
-            "libyaml-0-2", "zlib1g"]
+PACKAGES = ["libaravis-dev", "libc6", "libcli11-dev", "libcrypt1", "libeigen3-dev", "libgcc-s1",
+            "libgnutls30", "libgpiod2", "libjpeg62-turbo", "liblzma5", "libmicrohttpd12", "libmodbus5",
+            "libpng16-16", "libsqlite3-0", "libssl3", "libstdc++6", "libtomlplusplus-dev",
+            "libyaml-0-2", "nlohmann-json3-dev",
+            "zlib1g"]
 
 
 def packages(sysroot):

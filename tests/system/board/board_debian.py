@@ -13,9 +13,10 @@ from board_pwm import MEMORY_MB, device_tree
 from board_parts import FOLDER, ROOT, BoardError, initramfs, run
 
 PACKAGES = ("base-files", "base-passwd", "bash", "coreutils", "dash", "diffutils", "dpkg", "findutils",
-            "grep", "init-system-helpers", "libc-bin", "libgpiod2", "libmodbus5", "libpng16-16",
-            "libsqlite3-0", "libssl3", "libyaml-0-2", "mount", "perl-base", "sed", "systemd",
-            "systemd-sysv", "udev", "util-linux")
+            "grep", "init-system-helpers", "libc-bin", "libcrypt1", "libgnutls30",
+            "libgpiod2", "libjpeg62-turbo", "libmicrohttpd12", "libmodbus5", "libpng16-16",
+            "libsqlite3-0", "libssl3", "libyaml-0-2", "mount", "perl-base", "sed", "systemd", "systemd-sysv",
+            "udev", "util-linux")
 # Not what the tests are about, and slow under emulation.
 MASKED = ("systemd-udev-trigger.service", "systemd-udev-settle.service", "systemd-logind.service",
           "systemd-timesyncd.service", "systemd-networkd.service", "dev-hugepages.mount",
