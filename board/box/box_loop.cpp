@@ -271,10 +271,22 @@ void BoxLoop<S, Margin>::publish() {
   if (services_.view != nullptr) {
     services_.view->take(input_.field);
   }
+  if (services_.overlay != nullptr || services_.tap != nullptr) {
+    publish_marks();
+  }
+}
+
+template <core::Scalar S, typename Margin>
+void BoxLoop<S, Margin>::publish_marks() {
+  PictureTap* const tap = services_.tap;
+  const bool estimates = services_.estimates || (tap != nullptr && tap->estimates_wanted());
+  news_.take(input_, output_);
+  describe<S>(*session_, output_, news_, input_.field.number, estimates, overlay_);
   if (services_.overlay != nullptr) {
-    news_.take(input_, output_);
-    describe<S>(*session_, output_, news_, input_.field.number, services_.estimates, overlay_);
     services_.overlay->publish(overlay_);
+  }
+  if (tap != nullptr && tap->wanted()) {
+    tap->take(input_.field, overlay_);
   }
 }
 

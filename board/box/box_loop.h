@@ -10,6 +10,7 @@
 #include "board/box/overlay_news.h"
 #include "board/box/overlay_snapshot.h"
 #include "board/box/pair_desk.h"
+#include "board/box/picture_tap.h"
 #include "board/box/pose_desk.h"
 #include "core/base/event.h"
 #include "core/base/field.h"
@@ -47,6 +48,7 @@ struct BoxServices {
   EventRecorder* recorder = nullptr;  ///< keeps the last fields for a replay
   core::lighting::LampPolicy lamp{};  ///< what the session may do with the dimmer's lamp
   PairDesk* pairs = nullptr;          ///< keeps poses by the robot and by the box side by side
+  PictureTap* tap = nullptr;          ///< hands fields and their marks to whoever shows them
 };
 
 /// What went wrong on one line so far.
@@ -123,6 +125,7 @@ class BoxLoop {
   void set_lamp();
   void serve_poses();
   void publish();
+  void publish_marks();
   void record();
   void keep_state();
 
