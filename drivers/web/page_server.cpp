@@ -15,6 +15,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "drivers/web/page_exchange.h"
+
 namespace tubesight::drivers {
 namespace {
 
@@ -25,9 +27,6 @@ using core::Unexpected;
 constexpr unsigned kSilence_s = 15;
 constexpr std::size_t kConnectionMemory = std::size_t{24} * 1024;  // request line and headers
 constexpr int kNice = 10;
-/// What a stream may have waiting before its browser counts as gone.
-constexpr std::size_t kMostUnread = std::size_t{256} * 1024;
-constexpr std::size_t kStreamBlock = std::size_t{16} * 1024;
 
 /// Sent with every answer: no other site may frame the page, feed it scripts, or be told of it.
 constexpr std::array<std::pair<const char*, const char*>, 6> kHeaders = {{
@@ -78,127 +77,6 @@ MHD_Result take_argument(void* into, MHD_ValueKind /*kind*/, const char* key, co
     query.emplace(text_of(key), text_of(value));
   }
   return MHD_YES;
-}
-
-/// One request on its way through the server, and whoever answers it.
-///
-/// libmicrohttpd forgets a connection only when it is not suspended, so that one that waits may be
-/// woken at any time; `connection_` is null from the moment it ends.
-class Exchange final : public PageCall, public PageStream {
- public:
-  explicit Exchange(MHD_Connection* connection) : connection_(connection) {}
-
-  PageRequest request;
-  bool begun = false;  ///< refuse() was asked
-  bool handed_over = false;
-  bool too_long = false;
-
-  void answer(PageAnswer answer) override {
-    const std::lock_guard lock(mutex_);
-    if (!answer_ && !streaming_) {
-      answer_ = std::move(answer);
-      wake();
-    }
-  }
-
-  std::shared_ptr<PageStream> stream() override {
-    const std::lock_guard lock(mutex_);
-    streaming_ = !answer_;
-    wake();
-    return {self_.lock(), this};
-  }
-
-  bool push(std::string_view text) override {
-    const std::lock_guard lock(mutex_);
-    if (ended_ || connection_ == nullptr || unsent_.size() + text.size() > kMostUnread) {
-      ended_ = true;
-      wake();
-      return false;
-    }
-    unsent_ += text;
-    wake();
-    return true;
-  }
-
-  void end() override {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    wake();
-  }
-
-  void know_itself(const std::shared_ptr<Exchange>& self) { self_ = self; }
-
-  /// Of the server's thread: waits for an answer unless there is one.
-  [[nodiscard]] bool wait() {
-    const std::lock_guard lock(mutex_);
-    if (answer_ || streaming_) {
-      return false;
-    }
-    suspend();
-    return true;
-  }
-
-  [[nodiscard]] std::optional<PageAnswer> taken() {
-    const std::lock_guard lock(mutex_);
-    return answer_;
-  }
-  [[nodiscard]] bool streaming() {
-    const std::lock_guard lock(mutex_);
-    return streaming_;
-  }
-
-  /// Of the server's thread: up to `room` bytes of the stream.
-  ssize_t read(char* into, std::size_t room) {
-    const std::lock_guard lock(mutex_);
-    if (unsent_.empty()) {
-      if (ended_) {
-        return MHD_CONTENT_READER_END_OF_STREAM;
-      }
-      suspend();
-      return 0;
-    }
-    const std::size_t count = std::min(room, unsent_.size());
-    std::memcpy(into, unsent_.data(), count);
-    unsent_.erase(0, count);
-    return static_cast<ssize_t>(count);
-  }
-
-  void forget_connection() {
-    const std::lock_guard lock(mutex_);
-    connection_ = nullptr;
-    ended_ = true;
-  }
-
- private:
-  void suspend() {
-    suspended_ = true;
-    MHD_suspend_connection(connection_);
-  }
-  void wake() {
-    if (suspended_ && connection_ != nullptr) {
-      suspended_ = false;
-      MHD_resume_connection(connection_);
-    }
-  }
-
-  std::mutex mutex_;
-  MHD_Connection* connection_;
-  std::weak_ptr<Exchange> self_;
-  std::optional<PageAnswer> answer_;
-  std::string unsent_;
-  bool suspended_ = false;
-  bool streaming_ = false;
-  bool ended_ = false;
-};
-
-ssize_t read_stream(void* holder, std::uint64_t /*position*/, char* into, std::size_t room) {
-  return (*static_cast<std::shared_ptr<Exchange>*>(holder))->read(into, room);
-}
-
-void forget_stream(void* holder) {
-  auto* const exchange = static_cast<std::shared_ptr<Exchange>*>(holder);
-  (*exchange)->end();
-  delete exchange;
 }
 
 void forget_body(void* body) { delete static_cast<std::shared_ptr<const std::string>*>(body); }
@@ -430,10 +308,7 @@ MHD_Result PageServer::Hub::answer(MHD_Connection* connection,
   if (exchange->streaming()) {
     PageAnswer head;
     head.type = "text/event-stream";
-    auto* const kept = new std::shared_ptr<Exchange>(exchange);
-    return send(connection, head,
-                MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, kStreamBlock, read_stream, kept,
-                                                  forget_stream));
+    return send(connection, head, make_stream(exchange));
   }
   const std::optional<PageAnswer> answer = exchange->taken();
   return send(connection, *answer, make_body(*answer));

@@ -58,6 +58,11 @@ class PageSessions {
   /// The session of a cookie, seen now; null: there is none, or it has ended.
   [[nodiscard]] Session* find(const std::string& cookie, Time now);
 
+  /// Whether there is one, without seeing it.
+  [[nodiscard]] bool is_there(const std::string& cookie) const {
+    return sessions_.contains(cookie);
+  }
+
   /// A new session's cookie; empty: there is no room.
   [[nodiscard]] std::string open(PageRole role, Time now);
 
