@@ -5,6 +5,7 @@ import { PictureClock, judge } from './freshness.js';
 const FRAME_TIMEOUT_MS = 4000; // The box answers after 2 s at the latest.
 const SILENT_MS = 3000; // No word at all for so long: the line counts as broken.
 const RETRY_MS = 500;
+const COMPARE_MS = 5000;
 
 const steadyNow = () => performance.now() / 1000;
 const wallNow = () => Date.now() / 1000;
@@ -32,6 +33,8 @@ export class Box extends EventTarget {
     this.clock = new PictureClock();
     this.last = null; // the last frame
     this.status = null;
+    this.asked = 0;
+    this.estimates = false; // whether pictures come with where all tubes are expected
     this.heardAt = -Infinity;
     this.broken = false;
   }
@@ -49,12 +52,18 @@ export class Box extends EventTarget {
     return this.clock.age(steadyNow(), wallNow());
   }
 
+  /** How long before its picture the last field was judged, s. */
+  unjudged() {
+    const age = this.last && this.last.sighting.age_s;
+    return typeof age === 'number' ? Math.max(0, age) : 0;
+  }
+
   /** What may be said of the tube above the guidetube now (see judge()). */
   judgement() {
     return judge({
       session: this.sessionState,
       link: this.link,
-      age: this.pictureAge(),
+      age: this.pictureAge() + this.unjudged(),
       sighting: this.last && this.last.sighting,
     });
   }
@@ -67,13 +76,28 @@ export class Box extends EventTarget {
     this.listen();
     this.loop();
     await this.refresh();
+    setInterval(() => this.compareClocks(), COMPARE_MS);
   }
 
-  /** Asks who we are; keeps asking until the box answers. */
+  /** Where the box's clock stands: a picture's answer waits for the picture, this one does not. */
+  async compareClocks() {
+    const asked = steadyNow();
+    const answer = await this.get('/api/session');
+    if (answer.good) {
+      this.clock.answered(answer.data.now_s, asked);
+      if (this.sessionState === 'open' && answer.data.role === 'none') {
+        this.ended();
+      }
+    }
+  }
+
+  /** Asks who we are until the box answers; whoever asks later gets the answer alone. */
   async refresh() {
-    for (;;) {
+    this.asked += 1;
+    const mine = this.asked;
+    while (mine === this.asked) {
       const answer = await this.get('/api/session');
-      if (answer.good) {
+      if (answer.good && mine === this.asked) {
         this.take(answer.data);
         return;
       }
@@ -184,14 +208,18 @@ export class Box extends EventTarget {
   /** Asks for one picture; returns how long to wait before the next, ms. */
   async once() {
     const after = this.last ? this.last.sighting.field : -1;
+    const asked = steadyNow();
     const stop = new AbortController();
     const timer = setTimeout(() => stop.abort(), FRAME_TIMEOUT_MS);
     try {
-      const answer = await fetch(`/api/frame?after=${after}`, {
-        credentials: 'same-origin',
-        cache: 'no-store',
-        signal: stop.signal,
-      });
+      const answer = await fetch(
+        `/api/frame?after=${after}${this.estimates ? '&estimates=1' : ''}`,
+        {
+          credentials: 'same-origin',
+          cache: 'no-store',
+          signal: stop.signal,
+        },
+      );
       if (answer.status === 401 || answer.status === 403) {
         this.ended();
         return RETRY_MS;
@@ -212,7 +240,7 @@ export class Box extends EventTarget {
         return RETRY_MS;
       }
       this.heard();
-      this.clock.came(frame.sighting, steady, wall);
+      this.clock.came(frame.sighting, asked, steady, wall);
       if (this.last) {
         this.last.bitmap.close();
       }
@@ -244,6 +272,9 @@ export class Box extends EventTarget {
         }
         if (name === 'operator' && this.session) {
           this.session.operator = detail;
+        }
+        if (name === 'operator') {
+          this.refresh(); // An answer on its way may be from before this.
         }
         this.emit(name, detail);
       });

@@ -46,9 +46,6 @@ export function ask({
       'form',
       {
         class: `dialog${grave ? ' grave' : ''}`,
-        role: 'dialog',
-        'aria-modal': 'true',
-        'aria-labelledby': 'dialog-title',
         onsubmit: (event) => {
           event.preventDefault();
           close(Object.fromEntries(inputs.map(([name, made]) => [name, made.input.value.trim()])));
@@ -65,7 +62,11 @@ export function ask({
         cancel === null ? null : button(cancel, () => close(null)),
       ),
     );
-    const shade = make('div', { class: 'shade' }, form);
+    const shade = make(
+      'div',
+      { class: 'shade', role: 'dialog', 'aria-modal': 'true', 'aria-labelledby': 'dialog-title' },
+      form,
+    );
     shade.addEventListener('keydown', (event) => {
       if (event.key === 'Escape' && cancel !== null) {
         close(null);

@@ -8,9 +8,10 @@ const address = (tube) =>
   tube && Number.isInteger(tube.row) ? `${tube.row} / ${tube.column}` : 'not known';
 
 export class DisagreementScreen {
-  constructor(box, notify) {
+  constructor(box, notify, changed) {
     this.box = box;
     this.notify = notify;
+    this.changed = changed;
     this.items = [];
     this.chosen = null;
     this.frame = null;
@@ -71,7 +72,7 @@ export class DisagreementScreen {
     );
     this.empty = make('p', { class: 'plain' }, 'The robot and the box have not disagreed.');
     this.side = make(
-      'aside',
+      'section',
       { class: 'side', 'aria-label': 'Which disagreement' },
       make('h2', {}, 'Disagreements'),
       this.empty,
@@ -138,6 +139,12 @@ export class DisagreementScreen {
   async load() {
     const item = this.item;
     if (!item || !this.element.isConnected || this.element.hidden) {
+      return;
+    }
+    if (item.steps === 0) {
+      this.frame = null;
+      tell(this.stepWords, 'No picture was kept.');
+      this.draw();
       return;
     }
     this.asked += 1;
@@ -232,7 +239,7 @@ export class DisagreementScreen {
     this.notify(answer.good ? 'Acknowledged.' : answer.words, answer.good ? '' : 'bad');
     if (answer.good) {
       this.reason.value = '';
-      await this.refresh();
+      await this.changed();
     }
   }
 }

@@ -4,14 +4,18 @@
 /** A picture older than this says nothing about where the tool is now, s. */
 export const OLD_S = 0.5;
 
-/** How long a lowest delay counts, s. Quartz drifts by 100 ppm at most: 6 ms in that time. */
+/** How long a bound counts, s. Two clocks drift apart by 100 ppm at most: 6 ms in that time. */
 const KEPT_S = 60;
 
 /**
- * How old a picture is, by two measures of which the greater counts: the box's own clock, so that
- * pictures held up on the way are not taken for new, and the time since it came. The box's clock
- * is known up to the shortest way that a message took lately. Times of this side are taken from
- * two clocks, as one of them stands still while a laptop sleeps and the other one may be set.
+ * How old a picture is, by the box's clock and by ours: age when it was sent, time on the way, time
+ * since it came.
+ *
+ * The time on the way follows from where the box's clock stands on ours. An answer was made after
+ * it was asked for, which bounds that from below; the greatest such bound of the last minute is
+ * taken, so that an age is never told too low: not for pictures held up on the way, nor where every
+ * answer is late by the same time. Times of this side are taken from two clocks, as one of them
+ * stands still while a laptop sleeps and the other one may be set.
  */
 export class PictureClock {
   constructor() {
@@ -19,43 +23,51 @@ export class PictureClock {
   }
 
   reset() {
-    this.lowest = Infinity;
-    this.lowestBefore = Infinity;
+    this.offset = -Infinity; // ours minus the box's, s, at the least: of this half minute,
+    this.offsetBefore = -Infinity; // and of the one before
     this.since = null;
     this.picture = null;
     this.lastNow = null;
   }
 
-  /**
-   * A picture came: its age when it was sent and the box's clock then, both s; `steady` and `wall`
-   * are ours, s.
-   */
-  came({ age_s: age, now_s: now }, steady, wall) {
-    if (this.lastNow !== null && typeof now === 'number' && now < this.lastNow - 1) {
+  /** The box's clock stood at `now` when it answered what we asked at `asked` (ours, steady), s. */
+  answered(now, asked) {
+    if (typeof now !== 'number') {
+      return;
+    }
+    if (this.lastNow !== null && now < this.lastNow - 1) {
       this.reset(); // The box was started anew.
     }
-    if (this.since === null || steady - this.since > KEPT_S / 2) {
-      this.lowestBefore = this.lowest;
-      this.lowest = Infinity;
-      this.since = steady;
+    this.lastNow = now;
+    if (this.since === null || asked - this.since > KEPT_S / 2) {
+      this.offsetBefore = this.offset;
+      this.offset = -Infinity;
+      this.since = asked;
     }
-    if (typeof now === 'number') {
-      this.lowest = Math.min(this.lowest, steady - now);
-      this.lastNow = now;
-    }
-    this.picture = { age: typeof age === 'number' ? age : Infinity, now, steady, wall };
+    this.offset = Math.max(this.offset, asked - now);
+  }
+
+  /**
+   * A picture came: when it was taken and when it was sent, by the box's clock; when we asked for
+   * it and have it, by our `steady` clock and the `wall` clock; all s.
+   */
+  came({ time_s: taken, now_s: now }, asked, steady, wall) {
+    this.answered(now, asked);
+    const known = typeof taken === 'number' && typeof now === 'number';
+    this.picture = { age: known ? now - taken : Infinity, now, steady, wall };
   }
 
   /** The picture's age at an instant of ours, s; Infinity where there is none. */
   age(steady, wall) {
-    if (!this.picture) {
+    const { picture } = this;
+    if (!picture) {
       return Infinity;
     }
-    const picture = this.picture;
-    const since = Math.max(steady - picture.steady, wall - picture.wall);
-    const shortest = Math.min(this.lowest, this.lowestBefore);
-    const heldUp = typeof picture.now === 'number' ? picture.steady - picture.now - shortest : 0;
-    return Math.max(0, picture.age) + Math.max(0, since) + Math.max(0, heldUp);
+    const since = Math.max(steady - picture.steady, wall - picture.wall, 0);
+    const offset = Math.max(this.offset, this.offsetBefore);
+    const onTheWay =
+      typeof picture.now === 'number' ? picture.steady - offset - picture.now : Infinity;
+    return Math.max(0, picture.age) + Math.max(0, onTheWay) + since;
   }
 }
 

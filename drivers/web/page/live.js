@@ -38,7 +38,7 @@ export class LiveScreen {
       { class: 'live screen', 'aria-label': 'Live' },
       this.view.host,
       make(
-        'aside',
+        'section',
         { class: 'side', 'aria-label': 'Tube above the guidetube' },
         this.panel.element,
         make(

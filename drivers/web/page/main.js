@@ -28,7 +28,7 @@ function notify(text, kind = '') {
 const screens = {
   live: ['Live', new LiveScreen(box, notify)],
   start: ['Start', new StartScreen(box, notify, go)],
-  disagreement: ['Disagreement', new DisagreementScreen(box, notify)],
+  disagreement: ['Disagreement', new DisagreementScreen(box, notify, refreshDisagreements)],
   sheet: ['Sheet', new SheetScreen(box, notify)],
   trouble: ['Trouble', new TroubleScreen(box, notify)],
   settings: ['Settings', new SettingsScreen(box, notify)],
@@ -63,6 +63,7 @@ function show(name) {
       buttons[each].removeAttribute('aria-current');
     }
   }
+  box.estimates = name === 'trouble';
   document.title = `${screens[name][0]} – Tubesight`;
   if (before && before.hidden) {
     before.hidden();
@@ -91,13 +92,13 @@ function chip(name, good, words) {
   element.className = good === null ? 'unknown' : good ? 'good' : 'bad';
   tell(
     element,
-    `${good === null ? '?' : good ? '✓' : '✕'} ${name}${words && good !== true ? `: ${words}` : ''}`,
+    `${good === null ? '?' : good ? '✓' : '✕'} ${name}${words && good === false ? `: ${words}` : ''}`,
   );
   element.title = words || '';
 }
 
 const isWell = (words) =>
-  !words || /^(well|good|ok|open|automatic|connected|not used)\b/i.test(words);
+  !words || /^(well|good|ok|open|up|playing|automatic|connected)\b/i.test(words);
 
 function showHealth() {
   const up = box.link === 'up';
@@ -115,8 +116,10 @@ function showHealth() {
   const link = sighting && sighting.link;
   chip(
     'Robot',
-    !link ? null : link.state !== 'down' && isWell(link.words || link.state),
-    link && (link.words || link.state),
+    !link || link.state === 'none'
+      ? null
+      : link.state !== 'down' && isWell(link.words || link.state),
+    link && (link.state === 'none' ? 'not connected' : link.words || link.state),
   );
 }
 

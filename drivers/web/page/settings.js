@@ -16,11 +16,7 @@ export class SettingsScreen {
     );
     this.text = text.input;
     this.path = make('p', { class: 'step-words' });
-    this.messages = make('ul', {
-      class: 'messages',
-      role: 'status',
-      'aria-label': 'What the check says',
-    });
+    this.messages = make('ul', { class: 'messages' });
     this.keep = button('Save', () => this.put(), { class: 'main' });
     this.file = make('input', {
       type: 'file',
@@ -41,7 +37,7 @@ export class SettingsScreen {
         { class: 'detail' },
         this.path,
         text.row,
-        this.messages,
+        make('div', { role: 'status', 'aria-label': 'What the check says' }, this.messages),
         make(
           'div',
           { class: 'buttons' },
@@ -53,7 +49,7 @@ export class SettingsScreen {
         ),
       ),
       make(
-        'aside',
+        'section',
         { class: 'side', 'aria-label': 'Version and self-test' },
         make('h2', {}, 'This box'),
         this.versions,

@@ -43,7 +43,7 @@ export class SheetScreen {
       [...KINDS].reverse().map((kind) => this.legendRow(kind)),
     );
     this.side = make(
-      'aside',
+      'section',
       { class: 'side', 'aria-label': 'Search, legend and export' },
       this.title,
       this.search,

@@ -33,7 +33,7 @@ export class StartScreen {
     });
     this.window = new WindowEditor(box, notify, this.view, () => this.view.paint());
     this.side = make(
-      'aside',
+      'section',
       { class: 'side steps', 'aria-label': 'Steps' },
       make('h2', {}, 'Start'),
       make(
@@ -359,15 +359,17 @@ export class StartScreen {
   }
 
   async send(confirmed) {
-    if (!confirmed && !(await this.mayReplace())) {
+    const agreed = !confirmed && this.box.judgement().standing !== 'unknown';
+    if (agreed && !(await this.mayReplace())) {
       return;
     }
     this.accept.disabled = true;
-    const answer = await this.box.post('/api/start', {
-      field: this.frame.sighting.field,
-      tubes: this.tubes(),
-      confirmed,
-    });
+    const start = { field: this.frame.sighting.field, tubes: this.tubes(), confirmed };
+    let answer = await this.box.post('/api/start', start);
+    if (agreed && answer.data.refusal === 'tracking' && answer.data.confirmable) {
+      // That is what was just agreed to.
+      answer = await this.box.post('/api/start', { ...start, confirmed: true });
+    }
     if (answer.good && answer.data.taken) {
       this.notify('The start is taken: the box tracks.');
       this.go('live');
@@ -380,11 +382,7 @@ export class StartScreen {
     };
     this.refusal.replaceChildren(
       make('h3', {}, 'The start was refused'),
-      make(
-        'p',
-        {},
-        `${this.refused.click === null ? '' : `Tube-end ${this.refused.click + 1}: `}${answer.data.words || answer.words}`,
-      ),
+      make('p', {}, answer.data.words || answer.words),
     );
     this.refusal.hidden = false;
     this.anyway.hidden = !answer.data.confirmable;
@@ -395,9 +393,6 @@ export class StartScreen {
   /** A track that stands is never replaced without a word. */
   async mayReplace() {
     const now = this.box.judgement();
-    if (now.standing === 'unknown') {
-      return true;
-    }
     const where = now.row === undefined ? '' : ` at ${now.row} / ${now.column}`;
     return Boolean(
       await ask({

@@ -50,7 +50,7 @@ export class TroubleScreen {
     this.counters = make('tbody', {});
     this.recordings = make('ul', { class: 'recordings' });
     this.side = make(
-      'aside',
+      'section',
       { class: 'side', 'aria-label': 'Levels, counters and recordings', tabindex: '0' },
       make('h2', {}, 'Trouble-shooting'),
       this.estimates.row,
@@ -115,8 +115,10 @@ export class TroubleScreen {
         ),
       ),
     );
-    if (lamp && document.activeElement !== this.lamp) {
-      this.lamp.value = String(lamp.permille);
+    if (lamp) {
+      if (document.activeElement !== this.lamp) {
+        this.lamp.value = String(lamp.permille);
+      }
       tell(
         this.lampWords,
         `${lamp.permille / 10} %, ${lamp.automatic ? 'automatic' : 'by hand'}${lamp.words ? `: ${lamp.words}` : ''}`,

@@ -24,6 +24,7 @@ import urllib.parse
 import uuid
 
 FRAMES = 16
+RATE = 10              # pictures a second: enough to look at, and a test computer has other work
 WIDTH, HEIGHT = 635, 480
 WINDOW = {"left": 40, "top": 36, "width": 556, "height": 295}
 OPTIMUM = {"u": 318, "v": 190}
@@ -179,13 +180,13 @@ class Box:
         return time.monotonic() - self.begun
 
     def frame(self, client, at=None):
-        """(JSON, JPEG) of the newest field, 30 pictures a second."""
+        """(JSON, JPEG) of the newest field."""
         scene = SCENES[client.scene]
         at = self.now() if at is None else at
         if scene.get("stops") == "pictures":
             at = client.since - self.begun
-        field = 2 * int(at * 30)
-        frame = scene["frame"] if scene["frame"] is not None else (field // 2) % FRAMES
+        field = int(at * RATE)
+        frame = scene["frame"] if scene["frame"] is not None else field % FRAMES
         sighting = self.recording.sighting(frame)
         for key in ("state", "reason", "words", "advice", "tool"):
             if key in scene:
@@ -206,8 +207,8 @@ class Box:
             sighting["claim"] = {"row": claim[0], "column": claim[1], "verdict": claim[2], **place}
         elif sighting["aligned"]:
             sighting["claim"] = {"row": 40, "column": 60, "verdict": "confirmed"}
-        taken = field / 60
-        sighting.update(field=field, time_s=round(taken, 6), age_s=round(max(0.0, self.now() - taken), 4),
+        taken = field / RATE
+        sighting.update(field=field, time_s=round(taken, 6), age_s=0,
                         now_s=round(self.now(), 4), lamp=client.lamp)
         return sighting, self.recording.jpegs[frame]
 
@@ -235,7 +236,7 @@ class Box:
             row, column, *_ = min(tubes, key=lambda t: (t[2] - tube["u"]) ** 2 + (t[3] - tube["v"]) ** 2)
             if (row, column) != (tube["row"], tube["column"]) and not body.get("confirmed"):
                 return {"taken": False, "refusal": "map", "click": index, "confirmable": index == 0 and first["row"] == 48,
-                        "words": f"the settings know a plug at {tube['row']} / {tube['column']}, "
+                        "words": f"tube-end {index + 1}: the settings know a plug at {tube['row']} / {tube['column']}, "
                                  "and an open tube-end stands there"}
         client.started = body
         return {"taken": True}
@@ -289,7 +290,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             time.sleep(20)
             return
         if url.path == "/api/session":
-            self.reply(client.session())
+            self.reply({**client.session(), "now_s": self.box.now()})
         elif client.role == "none":
             self.reply({"error": "Log in first."}, 401)
         elif url.path == "/api/frame":
@@ -308,7 +309,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
                 time.sleep(SCENES[client.scene].get("late_s", 0))
                 self.send_frame(sighting, jpeg)
                 return
-            time.sleep(0.01)
+            time.sleep(1 / RATE - self.box.now() % (1 / RATE) + 0.001)
         self.send(204)
 
     def send_events(self, client):
