@@ -53,7 +53,12 @@ test=(
   e2fsprogs             # the file system that power cuts leave
   device-tree-compiler  # its PWM
   squashfs-tools        # its Debian, on which the package is installed
+  chromium              # the page is looked at in it
+  fonts-dejavu-core     # and written with these
 )
+# Node drives it. Where somebody has it from elsewhere, npm comes with it.
+command -v node > /dev/null || test+=(nodejs)
+command -v npm > /dev/null || test+=(npm)
 board=(
   cmake
   ninja-build
@@ -74,6 +79,21 @@ image=(
 fail() {
   echo "$0: $1" >&2
   exit 1
+}
+
+# What the page's test needs of npm's registry, at the versions of the lock file: build/page-test/.
+install_page_test() {
+  local root folder
+  root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+  folder=$root/build/page-test
+  cmp -s "$root/tests/system/page/package-lock.json" "$folder/installed.json" && return
+  mkdir -p "$folder"
+  cp "$root/tests/system/page/package.json" "$root/tests/system/page/package-lock.json" "$folder"
+  (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund > npm.log 2>&1 < /dev/null) || {
+    tail -n 5 "$folder/npm.log" >&2
+    fail "npm could not install what the page's test needs (network?)"
+  }
+  cp "$folder/package-lock.json" "$folder/installed.json"
 }
 
 wanted=()
@@ -98,7 +118,10 @@ for package in "${wanted[@]}"; do
   status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
   [ "$status" = installed ] || missing+=("$package")
 done
-[ ${#missing[@]} -gt 0 ] || exit 0
+if [ ${#missing[@]} -eq 0 ]; then
+  [[ " $* " != *" test "* ]] || install_page_test
+  exit 0
+fi
 
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
@@ -120,3 +143,4 @@ echo "installing: ${missing[*]}" >&2
     tail -n 5 "$log" >&2
     fail "apt-get could not install ${missing[*]} (network? Debian 12?)"
   }
+[[ " $* " != *" test "* ]] || install_page_test
