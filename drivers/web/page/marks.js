@@ -178,12 +178,13 @@ function drawTool(ctx, view, sighting, vouched) {
   const { tool, axis, around } = sighting;
   if (tool && typeof tool.u === 'number') {
     const [x, y] = view.toScreen(tool.u, tool.v);
-    const corners =
-      around && around.length === 4
-        ? around.map((corner) => view.toScreen(corner.u, corner.v))
-        : [];
-    const reach = corners.length
-      ? Math.max(...corners.map((corner) => Math.hypot(corner[0] - x, corner[1] - y))) * 0.75
+    // The four tube-ends around it tell how far apart they stand here.
+    const apart = (around || []).map((place) => {
+      const [px, py] = view.toScreen(place.u, place.v);
+      return Math.hypot(px - x, py - y);
+    });
+    const reach = apart.length
+      ? (0.52 * apart.reduce((sum, each) => sum + each, 0)) / apart.length
       : 34 * view.scale;
     const long = reach * 2.4;
     for (const [style, width] of [

@@ -91,7 +91,6 @@ class Recording:
         along, down = place.get((row, column + 1)), place.get((row + 1, column))
         # 25.4 mm to the next tube-end on either side.
         axis = {"u": at["u"] + 3.3 * dx, "v": at["v"] + 2.4 * dy}
-        r = 40
         sighting = {
             "state": "tracking", "reason": "", "words": "Tracking", "advice": "", "judged": True,
             "aligned": field["aligned"] == "1", "tracked": int(field["tracked"]), "liveness": "proved",
@@ -101,7 +100,8 @@ class Recording:
                         "v": float(field["primary_v_px"])},
             "axis": axis, "height_mm": float(field["tool_height_mm"]), "margin_sigma": float(field["margin"]),
             "residual_px": float(field["residual_px"]), "next_row": down, "next_column": along,
-            "around": [{"u": at["u"] + a * r, "v": at["v"] + b * r} for a, b in ((-1, -.8), (1, -.8), (1, .8), (-1, .8))],
+            "around": [place[tube] for tube in ((tool[0] + 1, tool[1]), (tool[0] - 1, tool[1]), (tool[0], tool[1] + 1),
+                                                (tool[0], tool[1] - 1)) if tube in place],
             "tubes": tubes, "window": WINDOW, "optimum": OPTIMUM,
             # Where the fit has them: up to 0.4 px off, the same in each run.
             "estimates": [[a, b, u + 0.4 * math.sin(7 * a + 3 * b), v + 0.4 * math.cos(5 * a + b), ]
