@@ -1,5 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the program and replays the recording that comes with it.
+#
+# Usage: ./bench.sh           replays the recording
+#        ./bench.sh --page    runs a simulated box and opens its page in a browser, until Ctrl-C
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
@@ -7,13 +10,22 @@ session=tests/data/recordings/two_visits/session.toml
 recording=tests/data/recordings/two_visits/recording.y4m.xz
 out=build/bench-run
 
+case ${1:-} in
+  "") target=tubesight ;;
+  --page) target=tubesightd ;;
+  *)
+    echo "$0: '$1', expected nothing or --page" >&2
+    exit 2
+    ;;
+esac
+
 scripts/install_packages.sh bench
 
 mkdir -p build "$out"
 
 build() {
   cmake --preset bench -DTUBESIGHT_BUILD_TESTS=OFF \
-    && NINJA_STATUS='[%p] ' cmake --build --preset bench --target tubesight
+    && NINJA_STATUS='[%p] ' cmake --build --preset bench --target "$target"
 }
 
 # Tells how far ninja is: in one line of a terminal, else every ten per cent.
@@ -39,6 +51,27 @@ if ! build 2>&1 | tee build/bench.log | tell_progress; then
   tail -n 30 build/bench.log >&2
   echo "$0: the build failed; all of it is in build/bench.log" >&2
   exit 1
+fi
+
+# Opens the page when it is served, where there is a browser and a screen for it.
+open_page() {
+  local link=http://127.0.0.1:8080/ tries
+  for tries in $(seq 50); do
+    if (exec 3<> /dev/tcp/127.0.0.1/8080) 2> /dev/null; then
+      echo "the page: $link"
+      if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] && command -v xdg-open > /dev/null; then
+        xdg-open "$link" > /dev/null 2>&1 || true
+      fi
+      return
+    fi
+    sleep 0.2
+  done
+  echo "$0: the page is not served after $((tries / 5)) s" >&2
+}
+
+if [ "$target" = tubesightd ]; then
+  open_page &
+  exec build/bench/bin/tubesightd docs/examples/box-with-page.toml
 fi
 
 rm -rf "${out:?}"/*

@@ -27,7 +27,9 @@ BoxService::BoxService(const BoxSettings& settings, const Found& found, Log& log
       watch_(say_to(log)),
       self_test_(say_to(log)),
       desk_([this] { return report(); }, box_, settings.told().start),
-      server_(desk_) {}
+      server_(desk_),
+      page_(settings.page.wanted ? std::make_unique<PageDesk>(box_.page_box(), say_to(log))
+                                 : nullptr) {}
 
 bool BoxService::start() {
   log_->say(found_.boots.words());
@@ -46,6 +48,9 @@ bool BoxService::start() {
     return false;
   }
   log_->say("started, " + std::string(program_version()));
+  if (page_ != nullptr && !page_->start()) {
+    log_->say("the page is not served, the box goes on without");
+  }
   supervisor_.start();
   manager_.say_ready();
   return true;
@@ -68,6 +73,9 @@ void BoxService::look_round() {
   log_->tell_repeats(monotonic_now());
   const BoxReport now = report();
   watch_.look(now);
+  if (page_ != nullptr) {
+    page_->look(now);
+  }
   self_test_.look(now);
   box_.tell_robot(self_test_.told());
   if (watch_.headline() != told_manager_) {
@@ -79,6 +87,9 @@ void BoxService::look_round() {
 void BoxService::stop() {
   manager_.say_stopping();
   supervisor_.begin_to_stop();
+  if (page_ != nullptr) {
+    page_->stop();
+  }
   box_.stop();
   desk_.serve_replies(server_, monotonic_now());  // what stop() wrote, somebody may wait for
   server_.stop();

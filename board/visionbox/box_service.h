@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "board/visionbox/boot_count.h"
@@ -8,6 +9,7 @@
 #include "board/visionbox/control_desk.h"
 #include "board/visionbox/golden_recording.h"
 #include "board/visionbox/log.h"
+#include "board/visionbox/page_desk.h"
 #include "board/visionbox/self_test_watch.h"
 #include "board/visionbox/service_manager.h"
 #include "board/visionbox/supervisor.h"
@@ -59,6 +61,7 @@ class BoxService {
   SelfTestWatch self_test_;
   ControlDesk desk_;
   drivers::ControlServer server_;
+  std::unique_ptr<PageDesk> page_;  ///< null: there is none
   std::string told_manager_;
 };
 

@@ -26,8 +26,9 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 9> kBoxTables = {
-    "source", "control", "realtime", "link", "record", "pairs", "zones", "lamp", "watchdog"};
+constexpr std::array<std::string_view, 10> kBoxTables = {"source", "control", "page",  "realtime",
+                                                         "link",   "record",  "pairs", "zones",
+                                                         "lamp",   "watchdog"};
 constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -172,6 +173,7 @@ double exposure_ms(const SourceSettings& source) {
 void read_all(SettingsDocument& document, BoxSettings& box) {
   box.source = {};
   box.control_socket.clear();
+  box.page = {};
   box.real_time = {};
   box.link = {};
   box.record = {};
@@ -187,6 +189,8 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   drivers::read_table(document, "control", false, [&](TableReader& table) {
     read_control(document, table, box.control_socket);
   });
+  drivers::read_table(document, "page", false,
+                      [&](TableReader& table) { read_page(document, table, box.page); });
   drivers::read_table(document, "realtime", false,
                       [&](TableReader& table) { read_real_time(table, box.real_time); });
   drivers::read_table(document, "link", false,
@@ -282,6 +286,7 @@ core::Result<void> load_box_settings(drivers::TextFiles& files, const std::strin
   SettingsDocument document;
   document.load(files, path, known);
   read_all(document, box);
+  box.page.file = path;
   drivers::Messages of_scenario;  // its mistakes are told with the others
   core::Result<void> scenario;
   const bool simulated = box.source.kind == SourceKind::kSimulated;

@@ -6,6 +6,7 @@
 
 #include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
+#include "board/visionbox/page_settings.h"
 #include "board/visionbox/pairs_settings.h"
 #include "board/visionbox/real_time.h"
 #include "board/visionbox/record_settings.h"
@@ -52,6 +53,7 @@ struct BoxSettings {
   RealTimeSettings real_time;
   LinkSettings link;
   RecordSettings record;
+  PageSettings page;
   PairsSettings pairs;
   ZonesSettings zones;
   LampSettings lamp;

@@ -5,11 +5,13 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "board/box/version.h"
 #include "board/visionbox/control_protocol.h"
+#include "board/visionbox/page_tools.h"
 #include "board/visionbox/program_arguments.h"
 #include "drivers/control/control_client.h"
 
@@ -28,6 +30,10 @@ struct Options {
   std::int64_t field = -1;
   bool confirm = false;
   std::string level;  ///< of the lamp
+  std::string role;   ///< whose password
+  std::string file;   ///< of passwords, or the certificate
+  std::string key;    ///< of the certificate
+  std::vector<std::string> names;
 };
 
 void add_field(CLI::App& command, Options& options) {
@@ -59,6 +65,20 @@ void add_commands(CLI::App& app, Options& options) {
   app.add_subcommand("record", "Let the box write its last fields to disk");
   app.add_subcommand("self-test", "Whether everything of the box works")
       ->add_flag("--json", options.json, "Print the box's answer as it is");
+}
+
+void add_page_commands(CLI::App& app, Options& options) {
+  CLI::App* const password = app.add_subcommand(
+      "page-password", "Set a password of the operator's page, read from standard input");
+  password->add_option("FILE", options.file, "File of passwords ([page] passwords)")->required();
+  password->add_option("ROLE", options.role, "viewer, operator or engineer")
+      ->required()
+      ->check(CLI::IsMember({"viewer", "operator", "engineer"}));
+  CLI::App* const certificate = app.add_subcommand(
+      "page-certificate", "Make a certificate for the operator's page, and print its fingerprint");
+  certificate->add_option("CERTIFICATE", options.file, "New file ([page] certificate)")->required();
+  certificate->add_option("KEY", options.key, "New file ([page] key)")->required();
+  certificate->add_option("NAMES", options.names, "Names and addresses of the box")->required();
 }
 
 std::string request(const std::string& command, const Options& options) {
@@ -112,6 +132,7 @@ int run_program(int argc, const char* const* argv) {
   app.require_subcommand(1);
   Options options;
   add_commands(app, options);
+  add_page_commands(app, options);
   if (const auto status = read_arguments(app, argc, argv)) {
     return *status;
   }
@@ -120,7 +141,14 @@ int run_program(int argc, const char* const* argv) {
     std::fprintf(stderr, "tubesightctl: a space in a place, expected numbers and commas alone\n");
     return kWrongInput;
   }
-  return ask(app.get_subcommands().front()->get_name(), options);
+  const std::string command = app.get_subcommands().front()->get_name();
+  if (command == "page-password") {
+    return set_page_password(options.file, options.role);
+  }
+  if (command == "page-certificate") {
+    return make_page_certificate(options.file, options.key, options.names);
+  }
+  return ask(command, options);
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ _tubesightctl() {
     -*) mapfile -t COMPREPLY < <(compgen -W "$options" -- "$cur") ;;
     *)
       [ -n "$command" ] ||
-        mapfile -t COMPREPLY < <(compgen -W "status start pick lamp record self-test" -- "$cur")
+        mapfile -t COMPREPLY < <(compgen -W "status start pick lamp record self-test page-password
+          page-certificate" -- "$cur")
       ;;
   esac
 }

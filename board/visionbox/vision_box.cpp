@@ -78,12 +78,20 @@ std::unique_ptr<PairsWriter> make_pairs_writer(PairDesk& desk, const BoxSettings
                                  : nullptr;
 }
 
+hal::OperatorStation& station_of(JoinedStation* joined, drivers::SocketStation& alone) {
+  return joined != nullptr ? static_cast<hal::OperatorStation&>(*joined) : alone;
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell, const std::string& origin)
     : settings_(&settings),
       tell_(std::move(tell)),
-      world_(make_world(settings, socket_station_, tell_)),
+      page_(settings.page.wanted ? std::make_unique<PagePorts>(settings.told().camera) : nullptr),
+      stations_(page_ == nullptr ? nullptr
+                                 : std::make_unique<JoinedStation>(socket_station_, page_->station,
+                                                                   PageDesk::kFirstId)),
+      world_(make_world(settings, station_of(stations_.get(), socket_station_), tell_)),
       source_(world_->source()),
       zones_(settings.zones.wanted()
                  ? std::make_unique<ZoneDesk>(settings.zones.points, settings.told().tubesheet)
@@ -95,8 +103,10 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell, const std::string& 
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, origin, tell_)),
       loop_(session_, ports(),
-            {&pose_handover_, nullptr, nullptr, false, recorder_.get(), lamp_policy(settings.lamp),
-             pairs_writer_ == nullptr ? nullptr : &pair_desk_}),
+            {&pose_handover_, nullptr, page_ == nullptr ? nullptr : &page_->marks, false,
+             recorder_.get(), lamp_policy(settings.lamp),
+             pairs_writer_ == nullptr ? nullptr : &pair_desk_,
+             page_ == nullptr ? nullptr : &page_->tap}),
       tracking_(loop_, source_, {kept_link_.get(), world_->lamp(), pairs_writer_.get()},
                 settings.real_time) {}
 
@@ -189,6 +199,20 @@ void VisionBox::look_after() {
                                                           tracking, monotonic_now()));
     }
   }
+}
+
+PageDesk::Box VisionBox::page_box() {
+  PageDesk::Box box;
+  box.settings = settings_;
+  box.station = &page_->station;
+  box.tap = &page_->tap;
+  box.marks = &page_->marks;
+  box.clock = &source_.clock();
+  if (records()) {
+    box.request_recording = [this] { return request_recording(); };
+    box.record_answer = [this](std::uint32_t number) { return record_answer(number); };
+  }
+  return box;
 }
 
 Beats VisionBox::beats() const {

@@ -8,12 +8,15 @@
 #include "board/box/box_loop.h"
 #include "board/box/event_recorder.h"
 #include "board/box/pair_desk.h"
+#include "board/box/picture_tap.h"
 #include "board/box/pose_handover.h"
 #include "board/box/pose_service.h"
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/joined_station.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/life_signs.h"
+#include "board/visionbox/page_desk.h"
 #include "board/visionbox/pairs_writer.h"
 #include "board/visionbox/pose_worker.h"
 #include "board/visionbox/recording_writer.h"
@@ -78,6 +81,8 @@ class VisionBox {
   [[nodiscard]] bool records() const { return recorder_ != nullptr; }
 
   [[nodiscard]] drivers::SocketStation& station() { return socket_station_; }
+  /// What the page has to do with the box; there is a page.
+  [[nodiscard]] PageDesk::Box page_box();
   [[nodiscard]] TrackingThread& tracking() { return tracking_; }
   [[nodiscard]] const TrackingThread::Loop& loop() const { return loop_; }
 
@@ -90,7 +95,18 @@ class VisionBox {
   bool memory_locked_ = false;
   MonotonicTime started_at_{0};
 
+  /// What the page sees of the tracking, and says to it.
+  struct PagePorts {
+    explicit PagePorts(const core::CameraSettings& camera)
+        : tap(camera.width_px, camera.height_px) {}
+    drivers::SocketStation station;
+    PictureTap tap;
+    core::Snapshot<OverlaySnapshot> marks;
+  };
+
   drivers::SocketStation socket_station_;
+  std::unique_ptr<PagePorts> page_;  ///< null: there is no page
+  std::unique_ptr<JoinedStation> stations_;
   std::unique_ptr<WatchedWorld> world_;
   FieldSource& source_;
   std::unique_ptr<ZoneDesk> zones_;      ///< null: no corrections

@@ -20,9 +20,9 @@ namespace tubesight::drivers {
 ///
 /// libmicrohttpd forgets a connection only when it is not suspended, so that one that waits may be
 /// woken at any time; `connection_` is null from the moment it ends.
-class Exchange final : public PageCall, public PageStream {
+class PageExchange final : public PageCall, public PageStream {
  public:
-  explicit Exchange(MHD_Connection* connection) : connection_(connection) {}
+  explicit PageExchange(MHD_Connection* connection) : connection_(connection) {}
 
   PageRequest request;
   bool begun = false;  ///< refuse() was asked
@@ -62,7 +62,7 @@ class Exchange final : public PageCall, public PageStream {
     wake();
   }
 
-  void know_itself(const std::shared_ptr<Exchange>& self) { self_ = self; }
+  void know_itself(const std::shared_ptr<PageExchange>& self) { self_ = self; }
 
   /// Of the server's thread: waits for an answer unless there is one.
   [[nodiscard]] bool wait() {
@@ -122,7 +122,7 @@ class Exchange final : public PageCall, public PageStream {
 
   std::mutex mutex_;
   MHD_Connection* connection_;
-  std::weak_ptr<Exchange> self_;
+  std::weak_ptr<PageExchange> self_;
   std::optional<PageAnswer> answer_;
   std::string unsent_;
   bool suspended_ = false;
@@ -131,6 +131,6 @@ class Exchange final : public PageCall, public PageStream {
 };
 
 /// What sends a browser the stream of its exchange; null: no memory.
-[[nodiscard]] MHD_Response* make_stream(const std::shared_ptr<Exchange>& exchange);
+[[nodiscard]] MHD_Response* make_stream(const std::shared_ptr<PageExchange>& exchange);
 
 }  // namespace tubesight::drivers

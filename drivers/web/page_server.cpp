@@ -129,7 +129,7 @@ class PageServer::Hub {
   void dismiss() {
     const std::lock_guard lock(mutex_);
     dismissing_ = true;
-    for (const std::weak_ptr<Exchange>& each : exchanges_) {
+    for (const std::weak_ptr<PageExchange>& each : exchanges_) {
       if (const auto exchange = each.lock()) {
         exchange->answer(plain_answer(MHD_HTTP_SERVICE_UNAVAILABLE, "the box stops"));
         exchange->end();
@@ -138,7 +138,7 @@ class PageServer::Hub {
   }
 
  private:
-  using Waiting = std::set<std::weak_ptr<Exchange>, std::owner_less<>>;
+  using Waiting = std::set<std::weak_ptr<PageExchange>, std::owner_less<>>;
 
   static MHD_Result take(void* hub, MHD_Connection* connection, const char* url, const char* method,
                          const char* version, const char* data, std::size_t* size, void** context);
@@ -149,7 +149,7 @@ class PageServer::Hub {
                  PageRequest& request);
   [[nodiscard]] std::optional<PageAnswer> refuse(MHD_Connection* connection,
                                                  const PageRequest& request);
-  MHD_Result answer(MHD_Connection* connection, const std::shared_ptr<Exchange>& exchange);
+  MHD_Result answer(MHD_Connection* connection, const std::shared_ptr<PageExchange>& exchange);
   MHD_Result send(MHD_Connection* connection, const PageAnswer& answer, MHD_Response* response);
 
   PageHandler* handler_;
@@ -260,13 +260,15 @@ MHD_Result PageServer::Hub::take(void* hub, MHD_Connection* connection, const ch
                                  std::size_t* size, void** context) {
   auto& self = *static_cast<Hub*>(hub);
   if (*context == nullptr) {
-    auto* const made = new std::shared_ptr<Exchange>(std::make_shared<Exchange>(connection));
+    auto* const made =
+        new std::shared_ptr<PageExchange>(std::make_shared<PageExchange>(connection));
     (*made)->know_itself(*made);
     *context = made;
     const std::lock_guard lock(self.mutex_);
     self.exchanges_.insert(*made);
   }
-  const std::shared_ptr<Exchange> exchange = *static_cast<std::shared_ptr<Exchange>*>(*context);
+  const std::shared_ptr<PageExchange> exchange =
+      *static_cast<std::shared_ptr<PageExchange>*>(*context);
   PageRequest& request = exchange->request;
   if (!exchange->begun) {
     exchange->begun = true;
@@ -301,7 +303,7 @@ MHD_Result PageServer::Hub::take(void* hub, MHD_Connection* connection, const ch
 }
 
 MHD_Result PageServer::Hub::answer(MHD_Connection* connection,
-                                   const std::shared_ptr<Exchange>& exchange) {
+                                   const std::shared_ptr<PageExchange>& exchange) {
   if (exchange->wait()) {
     return MHD_YES;
   }
@@ -344,7 +346,7 @@ MHD_Result PageServer::Hub::send(MHD_Connection* connection, const PageAnswer& a
 
 void PageServer::Hub::finish(void* hub, MHD_Connection* /*connection*/, void** context,
                              MHD_RequestTerminationCode /*why*/) {
-  auto* const exchange = static_cast<std::shared_ptr<Exchange>*>(*context);
+  auto* const exchange = static_cast<std::shared_ptr<PageExchange>*>(*context);
   if (exchange == nullptr) {
     return;
   }

@@ -1,0 +1,422 @@
+#!/usr/bin/env python3
+"""The operator's page of a simulated box: who may do what, starts and picks, pictures, and that nobody delays the box.
+
+Usage: page_test.py TUBESIGHTD TUBESIGHTCTL REPOSITORY
+"""
+import http.client
+import json
+import os
+import pathlib
+import signal
+import socket
+import ssl
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+BOX = CTL = ""
+REPOSITORY = pathlib.Path()
+PASSWORDS = {"viewer": "only looking on", "operator": "clicks tube-ends", "engineer": "knows the keys"}
+
+
+def free_port():
+    with socket.socket() as any_port:
+        any_port.bind(("127.0.0.1", 0))
+        return any_port.getsockname()[1]
+
+
+class Browser:
+    """One session, over one connection at a time."""
+
+    def __init__(self, port, context=None):
+        self.port, self.context, self.cookie, self.token = port, context, "", ""
+        self.connection = None
+
+    def open(self):
+        if self.context:
+            return http.client.HTTPSConnection("127.0.0.1", self.port, timeout=15, context=self.context)
+        return http.client.HTTPConnection("127.0.0.1", self.port, timeout=15)
+
+    def ask(self, method, path, body=None, **headers):
+        self.connection = self.connection or self.open()
+        sent = {"Cookie": self.cookie} if self.cookie else {}
+        if body is not None:
+            sent.update({"Content-Type": "application/json", "X-Tubesight": self.token})
+            body = body if isinstance(body, (str, bytes)) else json.dumps(body)
+        sent.update({name.replace("_", "-"): value for name, value in headers.items()})
+        try:
+            self.connection.request(method, path, body, {k: v for k, v in sent.items() if v is not None})
+            answer = self.connection.getresponse()
+            data = answer.read()
+        except (http.client.HTTPException, OSError):
+            self.connection.close()
+            self.connection = None
+            raise
+        if answer.getheader("Set-Cookie"):
+            self.cookie = answer.getheader("Set-Cookie").split(";")[0]
+        self.headers = answer.headers
+        if answer.getheader("Connection") == "close":
+            self.connection.close()
+            self.connection = None
+        if answer.getheader("Content-Type") == "application/json" and data:
+            data = json.loads(data)
+        return answer.status, data
+
+    def begin(self):
+        status, session = self.ask("GET", "/api/session")
+        assert status == 200, (status, session)
+        self.token = session["token"]
+        return session
+
+    def log_in(self, role):
+        self.begin()
+        status, session = self.ask("POST", "/api/login", {"role": role, "password": PASSWORDS[role]})
+        assert status == 200 and session["role"] == role, (status, session)
+        self.token = session["token"]
+        return self
+
+    def frame(self, after=-1):
+        status, data = self.ask("GET", f"/api/frame?after={after}")
+        if status != 200:
+            return status, None, b""
+        size = struct.unpack("<I", data[:4])[0]
+        return status, json.loads(data[4:4 + size]), data[4 + size:]
+
+
+class Box:
+    """A simulated box in a folder of its own."""
+
+    def __init__(self, case, page=""):
+        kept = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(kept.name)
+        self.port = free_port()
+        (self.folder / "rec").mkdir()
+        (self.folder / "secret.y4m").write_text("not of the recorder")
+        (self.folder / "box.toml").write_text(f"""
+[source]
+kind = "simulated"
+scenario = "{REPOSITORY}/docs/examples/steam-generator.toml"
+[control]
+socket = "{self.folder}/control"
+[record]
+folder = "{self.folder}/rec"
+memory_mb = 32
+[realtime]
+priority = 0
+lock_memory = false
+[page]
+port = {self.port}
+""" + page)
+        case.addCleanup(kept.cleanup)
+
+    def check(self):
+        return subprocess.run([BOX, "--check", self.folder / "box.toml"], capture_output=True, text=True,
+                              timeout=60, check=False)
+
+    def start(self, case):
+        self.log = open(self.folder / "log", "w+", encoding="utf-8")
+        self.process = subprocess.Popen([BOX, self.folder / "box.toml"], stderr=self.log,
+                                        preexec_fn=lambda: os.nice(1))
+        case.addCleanup(self.stop)
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline and self.process.poll() is None:
+            try:
+                socket.create_connection(("127.0.0.1", self.port), timeout=1).close()
+                return self
+            except OSError:
+                time.sleep(0.05)
+        raise AssertionError((self.folder / "log").read_text())
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        self.status = self.process.wait(timeout=30)
+        self.log.close()
+
+
+class Settings(unittest.TestCase):
+    def expect(self, page, words):
+        result = Box(self, page).check()
+        self.assertEqual(result.returncode, 2, result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def test_nobody_else_is_served_without_password_and_certificate(self):
+        self.expect('address = "0.0.0.0"\n', ["without a password", "cross the network in clear"])
+        self.expect('address = "here"\n', ["'here' is no address"])
+        self.expect('passwords = "none"\n', ["page.passwords"])
+        self.expect('certificate = "box.toml"\nkey = "box.toml"\n', ["none in PEM form"])
+
+    def test_the_example_is_sound(self):
+        result = subprocess.run([BOX, "--check", REPOSITORY / "docs/examples/box-with-page.toml"], check=False)
+        self.assertEqual(result.returncode, 0)
+
+
+class Alone(unittest.TestCase):
+    """A box on this machine without passwords."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.box = Box(cls).start(cls)
+
+    @classmethod
+    def addCleanup(cls, function, *arguments):  # of the class, as one box serves all cases
+        cls.addClassCleanup(function, *arguments)
+
+    def setUp(self):
+        self.browser = Browser(self.box.port)
+        session = self.browser.begin()
+        self.assertEqual((session["role"], session["login"]), ("engineer", False))
+
+    def test_other_names_and_other_sites_are_refused(self):
+        self.assertEqual(self.browser.ask("GET", "/", Host="evil.example")[0], 421)
+        self.assertEqual(self.browser.ask("GET", "/api/session", Origin="http://evil.example")[0], 403)
+        for wrong in [{"X_Tubesight": "0" * 64}, {"X_Tubesight": None}, {"Cookie": "tubesight=x"},
+                      {"Origin": "null"}]:
+            self.assertIn(self.browser.ask("POST", "/api/pick", {"u": 1, "v": 1}, **wrong)[0], (401, 403), wrong)
+        self.assertEqual(self.browser.ask("POST", "/api/pick", "u=1", Content_Type="text/plain")[0], 415)
+        mine = f"http://127.0.0.1:{self.box.port}"
+        self.assertEqual(self.browser.ask("POST", "/api/pick", {"u": 1, "v": 1}, Origin=mine)[0], 200)
+
+    def test_every_answer_keeps_other_sites_out(self):
+        for path in ("/", "/api/session", "/api/nothing"):
+            self.browser.ask("GET", path)
+            self.assertIn("default-src 'self'", self.browser.headers["Content-Security-Policy"])
+            self.assertEqual(self.browser.headers["X-Content-Type-Options"], "nosniff")
+        fresh = Browser(self.box.port)
+        fresh.ask("GET", "/api/session")
+        for word in ("HttpOnly", "SameSite=Strict"):
+            self.assertIn(word, fresh.headers["Set-Cookie"])
+
+    def test_nothing_but_its_files_is_served(self):
+        for path in ("/../etc/passwd", "/page/../../etc/passwd", "/page/%2e%2e/%2e%2e/etc/passwd", "/page/",
+                     "/etc/passwd", "/api/recordings/../secret.y4m", "/api/recordings/%2e%2e%2fsecret.y4m",
+                     "/api/recordings/secret.y4m", "/api/recordings//etc/passwd", "/api/", "/api/frame/x"):
+            self.assertEqual(self.browser.ask("GET", path)[0], 404, path)
+        self.assertEqual(self.browser.ask("GET", "/" + "x" * 300)[0], 414)
+        self.assertIn(self.browser.ask("DELETE", "/api/settings")[0], (405, 501))
+
+    def test_bodies_are_bounded_and_read_with_care(self):
+        self.assertEqual(self.browser.ask("POST", "/api/pick", b" " * 70_000)[0], 413)
+        self.browser.connection = None
+
+        def endless():
+            for _ in range(40):
+                yield b"x" * 4096
+        try:
+            connection = self.browser.open()
+            connection.request("POST", "/api/pick", endless(), {
+                "Cookie": self.browser.cookie, "X-Tubesight": self.browser.token,
+                "Content-Type": "application/json"}, encode_chunked=True)
+            self.assertGreaterEqual(connection.getresponse().status, 400)
+        except (http.client.HTTPException, OSError):
+            pass  # cut off
+        self.browser.connection = None
+        for body in ("", "[]", "{", "null", '"x"', "[" * 30_000, '{"u":1e999,"v":1}', '{"u":"1","v":1}',
+                     '{"u":1}', "\xff\xfe"):
+            self.assertEqual(self.browser.ask("POST", "/api/pick", body.encode("latin-1"))[0], 400, body[:20])
+        self.browser.ask("POST", "/api/operator", {"take": True, "name": "Ann", "confirmed": True})
+        for tubes in ([], [1], [{"row": 1.5, "column": 1, "u": 1, "v": 1}], "x",
+                      [{"row": 1, "column": 1, "u": 1, "v": 1}] * 9,
+                      [{"row": 18446744073709551615, "column": 1, "u": 1, "v": 1}]):
+            self.assertEqual(self.browser.ask("POST", "/api/start", {"tubes": tubes})[0], 400, tubes)
+        for body in ({"permille": 1001}, {"permille": -1}, {}, {"permille": 1, "automatic": True}):
+            self.assertEqual(self.browser.ask("POST", "/api/lamp", body)[0], 400, body)
+
+    def test_pictures_and_sightings_come_in_pairs_and_grow(self):
+        fields = [-1]
+        for _ in range(5):
+            status, sighting, picture = self.browser.frame(fields[-1])
+            self.assertEqual(status, 200)
+            self.assertGreater(sighting["field"], fields[-1])
+            self.assertTrue(picture.startswith(b"\xff\xd8\xff") and picture.endswith(b"\xff\xd9"))
+            self.assertLess(abs(sighting["now_s"] - sighting["time_s"]), 2)
+            fields.append(sighting["field"])
+        self.assertEqual(self.browser.frame(1 << 60)[0], 204)
+
+    def test_one_operates_and_starts_and_picks(self):
+        browser, other = self.browser, Browser(self.box.port)
+        other.begin()
+        status, told = browser.ask("POST", "/api/operator", {"take": True, "name": "Ann", "confirmed": True})
+        self.assertTrue(status == 200 and told["mine"], told)
+        self.assertEqual(other.ask("POST", "/api/start", {})[1]["held_by"], "Ann")
+        self.assertEqual(other.ask("POST", "/api/operator", {"take": True, "name": "Bob"})[0], 409)
+        status, told = browser.ask("POST", "/api/start", {"tubes": [
+            {"row": 1, "column": 1, "u": 2, "v": 2}] * 3})
+        self.assertFalse(told["taken"])
+        self.assertTrue(told["refusal"] and told["words"] and told["advice"], told)
+        status, told = browser.ask("POST", "/api/start", {})
+        self.assertEqual((status, told), (200, {"taken": True}))
+        sighting = self.wait_for(browser, lambda now: now["state"] == "tracking" and now.get("tool"))
+        tool = sighting["tool"]
+        status, named = browser.ask("POST", "/api/pick", {
+            "u": tool["u"], "v": tool["v"], "field": sighting["field"]})
+        self.assertEqual((named.get("row"), named.get("column")), (tool["row"], tool["column"]), named)
+        status, told = browser.ask("POST", "/api/start", {})
+        self.assertEqual((told["taken"], told["refusal"], told["confirmable"]), (False, "tracking", True))
+        self.assertTrue(self.wait_for(browser, lambda now: now["state"] == "tracking"))
+        status, told = other.ask("POST", "/api/operator", {"take": True, "name": "Bob", "confirmed": True})
+        self.assertTrue(told["mine"])
+        self.assertEqual(browser.ask("POST", "/api/lamp", {"permille": 900})[0], 409)
+        self.assertEqual(other.ask("POST", "/api/lamp", {"permille": 900})[1],
+                         {"permille": 900, "automatic": False})
+
+    def wait_for(self, browser, condition):
+        deadline, after = time.monotonic() + 20, -1
+        while time.monotonic() < deadline:
+            status, sighting, _ = browser.frame(after)
+            if status == 200:
+                after = sighting["field"]
+                if condition(sighting):
+                    return sighting
+        raise AssertionError(f"never came: {sighting}")
+
+    def test_a_frozen_picture_has_a_lattice_with_the_four_turns_of_a_square_sheet(self):
+        status, told = self.browser.ask("POST", "/api/freeze", {})
+        self.assertEqual(status, 200)
+        status, data = self.browser.ask("GET", "/api/frozen")
+        size = struct.unpack("<I", data[:4])[0]
+        self.assertEqual(json.loads(data[4:4 + size])["field"], told["field"])
+        status, lattice = self.browser.ask("GET", "/api/lattice")
+        self.assertTrue(lattice["found"], lattice)
+        self.assertGreater(len(lattice["elements"]), 10)
+        self.assertEqual(len(lattice["ways"]), 4, lattice["ways"])
+
+    def test_events_tell_status_and_operator_and_beat(self):
+        connection = self.browser.open()
+        connection.request("GET", "/api/events", headers={"Cookie": self.browser.cookie})
+        answer = connection.getresponse()
+        self.assertEqual(answer.getheader("Content-Type"), "text/event-stream")
+        heard, deadline = b"", time.monotonic() + 15
+        while time.monotonic() < deadline and not (
+                b"event: status" in heard and b"event: operator" in heard and b": beat" in heard):
+            heard += answer.read1(65536)
+        for word in (b"event: status", b"event: operator", b": beat"):
+            self.assertIn(word, heard)
+        connection.close()
+
+    def test_settings_are_checked_and_kept(self):
+        status, now = self.browser.ask("GET", "/api/settings")
+        status, told = self.browser.ask("POST", "/api/settings/check", {"text": now["text"] + "[nothing]\n"})
+        self.assertIn("unknown table", told["messages"][0])
+        status, told = self.browser.ask("PUT", "/api/settings", {"text": now["text"] + "[nothing]\n"})
+        self.assertFalse(told["saved"])
+        self.assertEqual((self.box.folder / "box.toml").read_text(), now["text"])
+        status, told = self.browser.ask("PUT", "/api/settings", {"text": now["text"] + "# tried\n"})
+        self.assertTrue(told["saved"], told)
+        self.assertEqual(pathlib.Path(told["backup"]).read_text(), now["text"])
+        self.assertEqual(self.browser.ask("GET", "/api/backup")[1].decode(), now["text"] + "# tried\n")
+
+    def test_the_rest_answers(self):
+        for path in ("/api/sheet", "/api/visits", "/api/disagreements", "/api/recordings"):
+            self.assertEqual(self.browser.ask("GET", path)[0], 200, path)
+        status, told = self.browser.ask("POST", "/api/self-test", {})
+        self.assertIn("numbers", [part["name"] for part in told["parts"]])
+
+    def test_viewers_and_a_flood_delay_nobody(self):
+        """Steps of the tracking thread, on a machine whose load is not ours to say: by their median."""
+        def median():
+            return self.browser.ask("GET", "/api/status")[1]["step"]["median_us"]
+
+        before, stopped, seen, refused = median(), threading.Event(), [0] * 4, [0]
+
+        def look(number):
+            viewer, after = Browser(self.box.port), -1
+            viewer.begin()
+            while not stopped.is_set():
+                status, sighting, _ = viewer.frame(after)
+                if status == 200:
+                    after, seen[number] = sighting["field"], seen[number] + 1
+
+        def flood():
+            while not stopped.is_set():
+                try:
+                    refused[0] += Browser(self.box.port).ask("GET", "/api/status")[0] == 401
+                except (http.client.HTTPException, OSError):
+                    pass
+                time.sleep(0.002)
+
+        threads = [threading.Thread(target=look, args=(i,)) for i in range(4)]
+        threads += [threading.Thread(target=flood)]
+        for thread in threads:
+            thread.start()
+        fields = self.browser.ask("GET", "/api/status")[1]["counters"]["fields"]
+        time.sleep(3)
+        after = self.browser.ask("GET", "/api/status")[1]
+        stopped.set()
+        for thread in threads:
+            thread.join()
+        self.assertGreater(min(seen), 5, seen)
+        self.assertGreater(refused[0], 50)
+        self.assertGreater(after["counters"]["fields"] - fields, 60)
+        self.assertLess(after["step"]["median_us"], 3 * before + 2000)
+
+
+class WithPasswords(unittest.TestCase):
+    """A box that others than this machine could ask: passwords by role, and TLS."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.box = Box(cls, 'passwords = "passwords"\ncertificate = "cert.pem"\nkey = "key.pem"\n')
+        for role, password in PASSWORDS.items():
+            subprocess.run([CTL, "page-password", cls.box.folder / "passwords", role], input=password + "\n",
+                           text=True, check=True, timeout=60)
+        made = subprocess.run([CTL, "page-certificate", cls.box.folder / "cert.pem", cls.box.folder / "key.pem",
+                               "127.0.0.1", "box1"], capture_output=True, text=True, check=True, timeout=60)
+        assert made.stdout.startswith("SHA-256 "), made.stdout
+        cls.context = ssl.create_default_context(cafile=str(cls.box.folder / "cert.pem"))
+        cls.box.start(cls)
+
+    @classmethod
+    def addCleanup(cls, function, *arguments):
+        cls.addClassCleanup(function, *arguments)
+
+    def browser(self):
+        return Browser(self.box.port, self.context)
+
+    def test_roles_may_what_they_may(self):
+        stranger = self.browser()
+        self.assertEqual(stranger.begin()["role"], "none")
+        self.assertIn("Secure", stranger.headers["Set-Cookie"])
+        for path in ("/api/frame", "/api/status", "/api/events", "/api/settings", "/api/recordings"):
+            self.assertEqual(stranger.ask("GET", path)[0], 401, path)
+        viewer = self.browser().log_in("viewer")
+        self.assertEqual(viewer.frame()[0], 200)
+        for path in ("/api/start", "/api/operator", "/api/lamp", "/api/record", "/api/acknowledge"):
+            self.assertEqual(viewer.ask("POST", path, {})[0], 403, path)
+        operator = self.browser().log_in("operator")
+        self.assertEqual(operator.ask("POST", "/api/operator", {"take": True, "name": "Ann"})[0], 200)
+        self.assertEqual(operator.ask("POST", "/api/lamp", {"permille": 900})[0], 200)
+        self.assertEqual(operator.ask("PUT", "/api/settings", {"text": ""})[0], 403)
+        engineer = self.browser().log_in("engineer")
+        self.assertEqual(engineer.ask("GET", "/api/backup")[0], 200)
+        self.assertEqual(engineer.ask("POST", "/api/logout", {})[0], 200)
+        self.assertEqual(engineer.ask("GET", "/api/backup")[0], 401)
+
+    def test_wrong_passwords_are_slowed(self):
+        guesser = self.browser()
+        guesser.begin()
+        status, told = guesser.ask("POST", "/api/login", {"role": "operator", "password": "guess number 1"})
+        self.assertEqual(status, 403)
+        begun, waits = time.monotonic(), []
+        while time.monotonic() - begun < 1.5:
+            status, told = guesser.ask("POST", "/api/login", {"role": "operator", "password": "guess again"})
+            self.assertEqual(status, 403)
+            waits.append(told["retry_after_s"])
+            time.sleep(0.02)
+        self.assertGreaterEqual(max(waits), 2)
+        time.sleep(max(waits) + 0.5)
+        guesser.log_in("operator")
+
+    def test_in_clear_nothing_is_said(self):
+        with self.assertRaises((http.client.HTTPException, OSError)):
+            Browser(self.box.port).ask("GET", "/api/session")
+
+
+if __name__ == "__main__":
+    CTL, REPOSITORY = sys.argv[2], pathlib.Path(sys.argv[3])
+    BOX = sys.argv[1]
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], warnings="ignore")
