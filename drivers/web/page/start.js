@@ -25,6 +25,12 @@ export class StartScreen {
     this.list = make('ol', { class: 'clicks' });
     this.numbering = make('p', { class: 'step-words' });
     this.turn = button('Turn the numbers', () => this.turnOn());
+    // A turned numbering starts as well as the right one: somebody has to have looked.
+    const sure = labelled('I compared a second tube-end: it is right', { type: 'checkbox' });
+    sure.row.classList.add('toggle');
+    this.sure = sure.input;
+    this.sureRow = sure.row;
+    this.sure.addEventListener('change', () => this.update());
     this.refusal = make('div', { class: 'refusal bad', role: 'alert', hidden: true });
     this.accept = button('Start tracking', () => this.send(false), { class: 'main' });
     this.anyway = button('Start all the same', () => this.sendAnyway(), {
@@ -55,6 +61,7 @@ export class StartScreen {
         make('h3', {}, '3  Check the other numbers'),
         this.numbering,
         this.turn,
+        this.sureRow,
       ),
       this.refusal,
       make(
@@ -93,6 +100,7 @@ export class StartScreen {
     this.lattice = null;
     this.cursor = null;
     this.way = 0;
+    this.sure.checked = false;
     this.refused = null;
     this.refusal.hidden = true;
     this.anyway.hidden = true;
@@ -222,6 +230,7 @@ export class StartScreen {
 
   /** What was refused no longer stands. */
   settle() {
+    this.sure.checked = false;
     this.refused = null;
     this.refusal.hidden = true;
     this.anyway.hidden = true;
@@ -279,6 +288,7 @@ export class StartScreen {
 
   turnOn() {
     this.way = (this.way + 1) % this.ways.length;
+    this.sure.checked = false;
     this.settle();
     this.update();
   }
@@ -294,6 +304,7 @@ export class StartScreen {
       this.clicks.every((click) => this.addressOfClick(click));
     const ways = this.ways.length;
     this.turn.hidden = ways < 2;
+    this.sureRow.hidden = ways < 2 || !complete;
     tell(
       this.numbering,
       !complete
@@ -304,7 +315,7 @@ export class StartScreen {
             ? 'The box knows which way they run. Compare one that you know.'
             : `Way ${this.way + 1} of ${ways}: turn until they are right. Compare one that you know.`,
     );
-    this.accept.disabled = !complete || !this.frame;
+    this.accept.disabled = !complete || !this.frame || (ways > 1 && !this.sure.checked);
     this.view.show(this.frame && this.frame.bitmap, (ctx, view) => this.draw(ctx, view));
     this.view.setOld(this.frame ? null : Infinity);
   }

@@ -19,6 +19,7 @@ async function openStart(browser, base, scene) {
   return visit;
 }
 
+const sure = (visit) => visit.page.getByLabel('I compared a second tube-end').check();
 const startButton = (visit) => visit.page.getByRole('button', { name: 'Start tracking' });
 
 /** Checks that the panel stops vouching in time after `wish`; the page's own timers tell how busy the computer is. */
@@ -56,6 +57,14 @@ export const flows = {
       await turn.click();
       await visit.page.getByText(`Way ${way} of 4`).waitFor();
     }
+    check(await startButton(visit).isDisabled(), 'a start with a numbering that nobody compared');
+    await sure(visit);
+    await turn.click();
+    check(await startButton(visit).isDisabled(), 'a start with a numbering turned since');
+    for (let more = 0; more < 3; more += 1) {
+      await turn.click();
+    }
+    await sure(visit);
     await startButton(visit).click();
     await visit.standing('vouched');
     const [sent] = await visit.posted('/api/start');
@@ -68,6 +77,7 @@ export const flows = {
   'start: refused with the click and the reason, then confirmed': async (browser, base) => {
     const visit = await openStart(browser, base, 'waiting');
     await nameTube(visit, 310, 191, 48, 60);
+    await sure(visit);
     await startButton(visit).click();
     await visit.page.getByRole('alert').getByText('tube-end 1: the settings know a plug at 48 / 60').waitFor();
     equal(await visit.page.locator('.blamed').count(), 1, 'clicks blamed');
@@ -81,6 +91,7 @@ export const flows = {
   'start: what cannot be confirmed is not offered': async (browser, base) => {
     const visit = await openStart(browser, base, 'waiting');
     await nameTube(visit, 310, 191, 12, 60);
+    await sure(visit);
     await startButton(visit).click();
     await visit.page.getByText('The start was refused').waitFor();
     check(await visit.page.getByRole('button', { name: 'Start all the same' }).isHidden(), 'it is offered');
@@ -104,6 +115,7 @@ export const flows = {
   'start: a track that stands is not replaced without a word': async (browser, base) => {
     const visit = await openStart(browser, base, 'aligned');
     await nameTube(visit, 310, 191, 40, 60);
+    await sure(visit);
     await startButton(visit).click();
     await visit.page.getByRole('dialog').getByText('The box is tracking').waitFor();
     equal(await accessibility(visit.page), [], 'accessibility of the question');
@@ -221,6 +233,9 @@ export const flows = {
     await page.keyboard.type('40');
     await page.keyboard.press('Tab');
     await page.keyboard.type('60');
+    await tabTo('Turn the numbers');
+    await page.keyboard.press('Tab');
+    await page.keyboard.press('Space');
     await tabTo('Start tracking');
     await page.keyboard.press('Enter');
     await page.waitForURL(/#live/);

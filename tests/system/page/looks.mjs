@@ -122,6 +122,7 @@ looks['looks: a start refused'] = async (browser, base) => {
   await visit.click('start', 310, 191);
   await visit.page.getByLabel('Row of tube-end 1').fill('48');
   await visit.page.getByLabel('Column of tube-end 1').fill('60');
+  await visit.page.getByLabel('I compared a second tube-end').check();
   await visit.page.getByRole('button', { name: 'Start tracking' }).click();
   await visit.page.getByText('The start was refused').waitFor();
   await settle(visit);
