@@ -16,6 +16,7 @@
 #include "board/bench/campaign/campaign_command.h"
 #include "board/bench/campaign_arguments.h"
 #include "board/bench/devices/devices_command.h"
+#include "board/bench/journal_arguments.h"
 #include "board/bench/look/look_command.h"
 #include "board/bench/new_arguments.h"
 #include "board/bench/number_range.h"
@@ -245,7 +246,8 @@ class Commands {
         budget_(add_budget(app, budget_options_)),
         campaign_(add_campaign(app, campaign_options_)),
         simulate_(add_simulate(app, simulate_options_)),
-        devices_(add_devices(app, devices_options_)) {
+        devices_(add_devices(app, devices_options_)),
+        journal_(add_journal(app, journal_options_)) {
     // What `devices` lists is all that it does.
     for (CLI::App* const command :
          app.get_subcommands([this](const CLI::App* each) { return each != devices_; })) {
@@ -267,6 +269,9 @@ class Commands {
     }
     if (devices_->parsed()) {
       return run_devices(devices_options_);
+    }
+    if (journal_->parsed()) {
+      return run_journal(journal_options_);
     }
     if (pose_->parsed()) {
       return run_pose(pose_options_);
@@ -295,6 +300,7 @@ class Commands {
   CampaignOptions campaign_options_;
   SimulateOptions simulate_options_;
   DevicesOptions devices_options_;
+  JournalOptions journal_options_;
   const CLI::App* made_;
   const CLI::App* replay_;
   const CLI::App* pose_;
@@ -304,6 +310,7 @@ class Commands {
   const CLI::App* campaign_;
   const CLI::App* simulate_;
   const CLI::App* devices_;
+  const CLI::App* journal_;
 };
 
 }  // namespace

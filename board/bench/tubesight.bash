@@ -19,7 +19,7 @@ _tubesight() {
   if [ "$COMP_CWORD" -eq 1 ]; then
     case $cur in
       -*) _tubesight_words -h --help -V --version ;;
-      *) _tubesight_words new replay pose look calibrate budget simulate campaign devices ;;
+      *) _tubesight_words new replay pose look calibrate budget simulate campaign devices journal ;;
     esac
     return
   fi
@@ -67,6 +67,10 @@ _tubesight() {
       options="-h --help --network"
       taking=""
       ;;
+    journal)
+      options="-h --help"
+      taking="--key --at-least --csv --jsonl"
+      ;;
     *) return ;;
   esac
 
@@ -86,12 +90,15 @@ _tubesight() {
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m .mp4 .mkv .mov && return ;;
     replay--summary) _tubesight_files .json && return ;;
+    journal--key) _tubesight_files .pub && return ;;
+    journal--jsonl) _tubesight_files .jsonl && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
     replay--fields | replay--centers | replay--poses | replay--pairs | replay--replies | pose--csv | pose--covariance | look--csv | \
       campaign--resume | campaign--report | campaign--merge | calibrate--touches | \
       calibrate--residuals)
       _tubesight_files .csv && return
       ;;
+    journal--csv) _tubesight_files .csv && return ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
     calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
@@ -124,6 +131,8 @@ _tubesight() {
         *) _tubesight_files .toml ;;
       esac
       ;;
+    journal0) _tubesight_words check export copy ;;
+    journal*) _tubesight_files .db ;;
     new0 | replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz .mp4 .mkv .mov .avi ;;
     pose* | look*)

@@ -15,7 +15,8 @@ import unittest
 
 PROGRAM = ""
 REPOSITORY = pathlib.Path()
-COMMANDS = ["new", "replay", "pose", "look", "calibrate", "budget", "campaign", "simulate", "devices"]
+COMMANDS = ["new", "replay", "pose", "look", "calibrate", "budget", "campaign", "simulate", "devices",
+            "journal"]
 PLATE = "tests/data/stills/square_flush"
 
 
@@ -181,6 +182,7 @@ class Words(Folder):
             "campaign": [(2, ["campaign"]), (2, ["campaign", "--merge", "none.csv"])],
             "simulate": [(2, ["simulate", none, "--out", "x"])],
             "devices": [(0, ["devices"])],
+            "journal": [(2, ["journal", "check", "none.db"]), (2, ["journal", "copy", "none.db"])],
         }
         self.assertEqual(sorted(table), sorted(COMMANDS))
         (self.folder / "a").mkdir()
