@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/tubesheet/tubesheet_setup.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -15,12 +17,7 @@ double rounded(double value, double per_unit) { return std::round(value * per_un
 
 }  // namespace
 
-void PageHistory::know_sheet(const core::TubesheetSettings& sheet) {
-  origin_mm_ = sheet.origin_mm;
-  row_step_mm_ = sheet.row_step_mm;
-  column_step_mm_ = sheet.column_step_mm;
-  odd_row_shift_ = sheet.odd_row_shift;
-}
+void PageHistory::know_sheet(const core::TubesheetSettings& sheet) { sheet_ = sheet; }
 
 void PageHistory::take(const OverlaySnapshot& marks, const Picture& latest) {
   follow(marks.sighting);
@@ -34,13 +31,9 @@ void PageHistory::follow(const core::Sighting& sighting) {
     return;
   }
   constexpr double kApart_mm = 2.0;
-  const double row = sighting.tool.row;
-  const double column = sighting.tool.column + (sighting.tool.row % 2 != 0 ? odd_row_shift_ : 0.0);
-  const Place place{origin_mm_[0] + row * row_step_mm_[0] + column * column_step_mm_[0] +
-                        mm(sighting.displacement_um_q8[0]),
-                    origin_mm_[1] + row * row_step_mm_[1] + column * column_step_mm_[1] +
-                        mm(sighting.displacement_um_q8[1]),
-                    seconds(sighting.time)};
+  const auto center = core::tubesheet::center_mm(sheet_, sighting.tool);
+  const Place place{center[0] + mm(sighting.displacement_um_q8[0]),
+                    center[1] + mm(sighting.displacement_um_q8[1]), seconds(sighting.time)};
   now_ = place;
   if (path_.empty() ||
       std::hypot(place.x_mm - path_.back().x_mm, place.y_mm - path_.back().y_mm) > kApart_mm) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -12,6 +11,7 @@
 #include "board/visionbox/page_json.h"
 #include "board/visionbox/picture_hub.h"
 #include "core/base/reply.h"
+#include "core/base/settings.h"
 #include "core/base/sighting.h"
 
 namespace tubesight::board {
@@ -86,10 +86,7 @@ class PageHistory {
   double kept_at_s_ = -1e9;
   std::deque<Disagreement> disagreements_;
   std::int64_t last_id_ = 0;
-  std::array<double, 2> origin_mm_{};
-  std::array<double, 2> row_step_mm_{};
-  std::array<double, 2> column_step_mm_{};
-  double odd_row_shift_ = 0.0;
+  core::TubesheetSettings sheet_;
 };
 
 }  // namespace tubesight::board

@@ -12,6 +12,7 @@
 #include "core/base/transform.h"
 #include "core/detection/lattice_finder.h"
 #include "core/picture/averaged_picture.h"
+#include "core/tubesheet/sheet_places.h"
 
 namespace tubesight::board {
 namespace {
@@ -67,11 +68,6 @@ bool are_alike(const Vector& i, const Vector& j, const Vector& on_sheet_i,
          std::abs(std::log(ratio)) < kLengthsAgree;
 }
 
-Vector combine(const core::TubesheetSettings& sheet, std::int32_t rows, std::int32_t columns) {
-  return {rows * sheet.row_step_mm[0] + columns * sheet.column_step_mm[0],
-          rows * sheet.row_step_mm[1] + columns * sheet.column_step_mm[1]};
-}
-
 using Found = core::detection::FoundLattice;
 
 std::optional<Vector> in_picture(const Vector& px) { return px; }
@@ -123,20 +119,24 @@ Json not_found(const char* words) { return {{"found", false}, {"words", words}};
 
 std::vector<LatticeWay> lattice_ways(const core::TubesheetSettings& sheet, const Vector& i,
                                      const Vector& j) {
-  if (sheet.odd_row_shift != 0.0) {
+  using core::tubesheet::check_move;
+  using core::tubesheet::move_mm;
+  using core::tubesheet::MoveFault;
+  // From row to row another kind of tube: neighbours in the picture are no steps of the lattice.
+  if (check_move(sheet, {1, 0}) == MoveFault::kRows) {
     return {};
   }
   // Of numberings that leave out every other address, neighbours are two numbers apart.
-  const std::int32_t area = sheet.addresses == core::AddressParity::kAll ? 1 : 2;
+  const std::int32_t area = check_move(sheet, {0, 1}) == MoveFault::kNone ? 1 : 2;
   constexpr std::int32_t kMost = 2;
   std::vector<LatticeWay> ways;
   for (std::int32_t a = -kMost; a <= kMost; ++a) {
     for (std::int32_t c = -kMost; c <= kMost; ++c) {
       for (std::int32_t b = -kMost; b <= kMost; ++b) {
         for (std::int32_t d = -kMost; d <= kMost; ++d) {
-          const bool on_sums = area == 1 || ((a + c) % 2 == 0 && (b + d) % 2 == 0);
-          if (std::abs(a * d - b * c) == area && on_sums &&
-              are_alike(i, j, combine(sheet, a, c), combine(sheet, b, d))) {
+          if (std::abs(a * d - b * c) == area && check_move(sheet, {a, c}) == MoveFault::kNone &&
+              check_move(sheet, {b, d}) == MoveFault::kNone &&
+              are_alike(i, j, move_mm(sheet, {a, c}), move_mm(sheet, {b, d}))) {
             ways.push_back({a, b, c, d});
           }
         }
