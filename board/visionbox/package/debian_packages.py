@@ -2,12 +2,13 @@
 import pathlib
 import subprocess
 
-# Of this machine's, when there is no sysroot: what is compiled in or linked with.
-PACKAGES = ["libaravis-dev", "libc6", "libcli11-dev", "libcrypt1", "libeigen3-dev", "libgcc-s1",
-            "libgnutls30", "libgpiod2", "libjpeg62-turbo", "liblzma5", "libmicrohttpd12", "libmodbus5",
-            "libpng16-16", "libsqlite3-0", "libssl3", "libstdc++6", "libtomlplusplus-dev",
-            "libyaml-0-2", "nlohmann-json3-dev",
-            "zlib1g"]
+# Of this machine's, when there is no sysroot: what is compiled in or linked with, and what that stands on
+# (GnuTLS on eight libraries), as a sysroot has it.
+PACKAGES = ["libaravis-dev", "libc6", "libcli11-dev", "libcrypt1", "libeigen3-dev", "libffi8", "libgcc-s1",
+            "libgmp10", "libgnutls30", "libgpiod2", "libhogweed6", "libidn2-0", "libjpeg62-turbo", "liblzma5",
+            "libmicrohttpd12", "libmodbus5", "libnettle8", "libp11-kit0", "libpng16-16", "libsqlite3-0",
+            "libssl3", "libstdc++6", "libtasn1-6", "libtomlplusplus-dev", "libunistring2", "libyaml-0-2",
+            "nlohmann-json3-dev", "zlib1g"]
 
 
 def packages(sysroot):
