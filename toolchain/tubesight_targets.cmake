@@ -215,6 +215,12 @@ function(tubesight_add_library path)
     if(folder MATCHES "^core/")
       target_compile_options(${target} PRIVATE ${tubesight_core_optimisation})
     endif()
+    # What reads things from outside tells the fuzzers which way it went. All else would be compiled and
+    # run slower for nobody.
+    if(TUBESIGHT_BUILD_FUZZERS AND folder MATCHES "^(core/(base|session)|drivers|board/visionbox)(/|$)")
+      target_compile_options(${target} PRIVATE
+        -fsanitize-coverage=inline-8bit-counters,indirect-calls,trace-cmp,pc-table)
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
