@@ -53,7 +53,7 @@ test=(
   e2fsprogs             # the file system that power cuts leave
   device-tree-compiler  # its PWM
   squashfs-tools        # its Debian, on which the package is installed
-  chromium              # the page is looked at in it
+  chromium-headless-shell # the page is looked at in it
   fonts-dejavu-core     # and written with these
 )
 # Node drives it. Where somebody has it from elsewhere, npm comes with it.

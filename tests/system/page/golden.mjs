@@ -70,32 +70,31 @@ export async function compare(page, name, masked = []) {
   const take = async () => {
     const shot = await page.screenshot({ animations: 'allow', mask: masked.map((each) => page.locator(each)), maskColor: '#404040' });
     const png = PNG.sync.read(shot);
-    const small = reduce(png, png.width > 1100 ? 3 : 2);
-    return { shot, bytes: PNG.sync.write(small, { colorType: 2, deflateLevel: 9 }) };
+    return { shot, small: reduce(png, png.width > 1100 ? 3 : 2) };
   };
+  const encode = (small) => PNG.sync.write(small, { colorType: 2, deflateLevel: 9 });
   if (process.argv.includes('--pictures') && SHOWN.includes(name)) {
     const shown = path.join(ROOT, `docs/pictures/page-${name.replace('-1024', '')}.jpg`);
     await page.screenshot({ animations: 'allow', path: shown, type: 'jpeg', quality: 72 });
   }
-  let { bytes } = await take();
-  for (let before = null; process.argv.includes('--update') && before !== bytes.toString('base64');) {
-    // What is kept is what stood twice: no moment in which a picture was late.
-    before = bytes.toString('base64');
-    await page.waitForTimeout(600);
-    ({ bytes } = await take());
-  }
+  let last = await take();
   if (process.argv.includes('--update')) {
+    // What is kept is what stood twice: no moment in which a picture was late.
+    for (let before = null; before === null || !before.data.equals(last.small.data);) {
+      before = last.small;
+      await page.waitForTimeout(600);
+      last = await take();
+    }
     fs.mkdirSync(FOLDER, { recursive: true });
-    fs.writeFileSync(path.join(FOLDER, `${name}.png`), bytes);
+    fs.writeFileSync(path.join(FOLDER, `${name}.png`), encode(last.small));
     return;
   }
   // On a busy computer a picture may be late, which the page rightly shows.
-  let share = differing(PNG.sync.read(bytes), kept(name));
-  let last = null;
+  let share = differing(last.small, kept(name));
   for (let more = 0; more < MOST_TRIES && share > MOST_BLOCKS; more += 1) {
     await page.waitForTimeout(700);
     last = await take();
-    share = differing(PNG.sync.read(last.bytes), kept(name));
+    share = differing(last.small, kept(name));
   }
   if (share > MOST_BLOCKS) {
     const saved = path.join(process.env.TMPDIR || '/tmp', `page-${name}.png`);

@@ -14,12 +14,12 @@ const AT_ONCE = 2;
 
 const only = process.argv.includes('--only') ? process.argv[process.argv.indexOf('--only') + 1] : '';
 const tests = Object.entries({ ...freshness, ...flows, ...looks }).filter(([name]) => name.includes(only));
-if (!fs.existsSync('/usr/bin/chromium')) {
-  console.error('page_test: there is no /usr/bin/chromium; scripts/install_packages.sh test installs it');
+if (!fs.existsSync('/usr/bin/chromium-headless-shell')) {
+  console.error('page_test: there is no /usr/bin/chromium-headless-shell; scripts/install_packages.sh test installs it');
   process.exit(1);
 }
 const mock = await startMock();
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu'] });
+const browser = await chromium.launch({ executablePath: '/usr/bin/chromium-headless-shell', args: ['--no-sandbox', '--disable-gpu'] });
 const base = `http://127.0.0.1:${mock.port}`;
 let failed = 0;
 const queue = [...tests];
