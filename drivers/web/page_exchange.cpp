@@ -1,5 +1,12 @@
 #include "drivers/web/page_exchange.h"
 
+#include <array>
+#include <cstring>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
 namespace tubesight::drivers {
 namespace {
 
@@ -16,6 +23,27 @@ void forget_stream(void* holder) {
 }
 
 }  // namespace
+
+std::string address_of(MHD_Connection* connection) {
+  const MHD_ConnectionInfo* const info =
+      MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  if (info == nullptr || info->client_addr == nullptr) {
+    return {};
+  }
+  if (info->client_addr->sa_family == AF_INET) {
+    sockaddr_in address{};
+    std::memcpy(&address, info->client_addr, sizeof(address));
+    inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+  } else if (info->client_addr->sa_family == AF_INET6) {
+    sockaddr_in6 address{};
+    std::memcpy(&address, info->client_addr, sizeof(address));
+    inet_ntop(AF_INET6, &address.sin6_addr, text.data(), text.size());
+  }
+  constexpr std::string_view kMapped = "::ffff:";
+  const std::string whole = text.data();
+  return whole.starts_with(kMapped) ? whole.substr(kMapped.size()) : whole;
+}
 
 MHD_Response* make_stream(const std::shared_ptr<PageExchange>& exchange) {
   auto* const kept = new std::shared_ptr<PageExchange>(exchange);

@@ -130,6 +130,9 @@ class PageExchange final : public PageCall, public PageStream {
   bool ended_ = false;
 };
 
+/// Whom a connection comes from, without port; an IPv4 address as such. Empty: not known.
+[[nodiscard]] std::string address_of(MHD_Connection* connection);
+
 /// What sends a browser the stream of its exchange; null: no memory.
 [[nodiscard]] MHD_Response* make_stream(const std::shared_ptr<PageExchange>& exchange);
 
