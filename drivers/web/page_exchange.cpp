@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstring>
+#include <string_view>
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <strings.h>
 #include <sys/socket.h>
 
 namespace tubesight::drivers {
@@ -20,6 +22,25 @@ void forget_stream(void* holder) {
   auto* const exchange = static_cast<std::shared_ptr<PageExchange>*>(holder);
   (*exchange)->end();
   delete exchange;
+}
+
+struct Lengths {
+  int told = 0;
+  bool plain = true;
+};
+
+MHD_Result note_length(void* into, MHD_ValueKind /*kind*/, const char* key, const char* value) {
+  auto& lengths = *static_cast<Lengths*>(into);
+  const std::string_view text = value == nullptr ? "" : value;
+  if (strcasecmp(key, MHD_HTTP_HEADER_CONTENT_LENGTH) == 0) {
+    ++lengths.told;
+    lengths.plain = lengths.plain && !text.empty() &&
+                    text.find_first_not_of("0123456789") == std::string_view::npos;
+  } else if (strcasecmp(key, MHD_HTTP_HEADER_TRANSFER_ENCODING) == 0) {
+    ++lengths.told;
+    lengths.plain = lengths.plain && strcasecmp(value == nullptr ? "" : value, "chunked") == 0;
+  }
+  return MHD_YES;
 }
 
 }  // namespace
@@ -43,6 +64,12 @@ std::string address_of(MHD_Connection* connection) {
   constexpr std::string_view kMapped = "::ffff:";
   const std::string whole = text.data();
   return whole.starts_with(kMapped) ? whole.substr(kMapped.size()) : whole;
+}
+
+bool has_one_length(MHD_Connection* connection) {
+  Lengths lengths;
+  MHD_get_connection_values(connection, MHD_HEADER_KIND, note_length, &lengths);
+  return lengths.plain && lengths.told <= 1;
 }
 
 MHD_Response* make_stream(const std::shared_ptr<PageExchange>& exchange) {

@@ -133,6 +133,10 @@ class PageExchange final : public PageCall, public PageStream {
 /// Whom a connection comes from, without port; an IPv4 address as such. Empty: not known.
 [[nodiscard]] std::string address_of(MHD_Connection* connection);
 
+/// Whether a request says once at most, in digits alone, how long its body is. Where two readers of
+/// a line could disagree on that, one request hides in another.
+[[nodiscard]] bool has_one_length(MHD_Connection* connection);
+
 /// What sends a browser the stream of its exchange; null: no memory.
 [[nodiscard]] MHD_Response* make_stream(const std::shared_ptr<PageExchange>& exchange);
 

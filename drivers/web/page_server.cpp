@@ -235,6 +235,9 @@ std::optional<PageAnswer> PageServer::Hub::refuse(MHD_Connection* connection,
   if (request.path.size() > kLongestPath) {
     return plain_answer(MHD_HTTP_URI_TOO_LONG, "the path is too long");
   }
+  if (!has_one_length(connection)) {
+    return plain_answer(MHD_HTTP_BAD_REQUEST, "expected one length of the body");
+  }
   const std::string length =
       text_of(MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Content-Length"));
   const std::uint64_t announced = std::strtoull(length.c_str(), nullptr, 10);

@@ -91,7 +91,7 @@ DRIVER_LIBRARY = {
     "drivers/watchdog": re.compile(r"^linux/watchdog\.h$"),
     # libjpeg's way out of an error; libcrypt; addresses of browsers; its threads' names.
     "drivers/web": re.compile(r"^((microhttpd|jpeglib|crypt|gnutls/(abstract|crypto|gnutls|x509)|arpa/inet|"
-                              r"netinet/in)\.h|csetjmp|ctime|fstream)$"),
+                              r"netinet/in|strings)\.h|csetjmp|ctime|fstream)$"),
 }
 
 FORBIDDEN_BELOW_BOARD = [

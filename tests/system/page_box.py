@@ -111,19 +111,20 @@ port = {self.port}
         return subprocess.run([self.program, "--check", self.folder / "box.toml"], capture_output=True, text=True,
                               timeout=60, check=False)
 
-    def start(self, case):
+    def start(self, case, seconds=30, otherwise=None):
+        """Waits until the page is served, so long at most; `otherwise` is what is told when it is not."""
         self.log = open(self.folder / "log", "w+", encoding="utf-8")
         self.process = subprocess.Popen([self.program, self.folder / "box.toml"], stderr=self.log,
                                         preexec_fn=lambda: os.nice(1))
         case.addCleanup(self.stop)
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + seconds
         while time.monotonic() < deadline and self.process.poll() is None:
             try:
                 socket.create_connection(("127.0.0.1", self.port), timeout=1).close()
                 return self
             except OSError:
                 time.sleep(0.05)
-        raise AssertionError((self.folder / "log").read_text())
+        raise AssertionError(otherwise or (self.folder / "log").read_text())
 
     def stop(self):
         self.process.send_signal(signal.SIGTERM)
