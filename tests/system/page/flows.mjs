@@ -414,4 +414,29 @@ export const flows = {
     check(!(await text.isEditable()), 'a viewer may write');
     await visit.close();
   },
+
+  'names and reasons are shown as they are written, and never run': async (browser, base) => {
+    const visit = await Visit.open(browser, base);
+    const { page } = visit;
+    const evil = '<img src=x onerror="globalThis.ran=1"><b>Eve</b>';
+    await visit.mock({ operator: { held: true, mine: false, name: evil } });
+    await page.getByRole('button', { name: 'Operator: <img' }).waitFor();
+    await visit.operate('Ada');
+    await visit.mock({ disagreement: true });
+    await page.getByRole('button', { name: 'Look at it' }).click();
+    await page.getByText('at the claim').waitFor();
+    await page.getByLabel('Your name').fill(evil);
+    await page.getByLabel('Reason').fill(evil);
+    await page.getByRole('button', { name: 'Acknowledge' }).click();
+    await page.getByText(`Acknowledged by ${evil}: ${evil}`).waitFor();
+    await visit.mock({ replies: { '/api/settings/check': [200, { messages: [`box.toml:1: ${evil}`] }] } });
+    await visit.go('Settings');
+    await until(page, () => document.querySelector('textarea').value.includes('[source]'));
+    await page.getByLabel('Settings of the box').fill(evil);
+    await page.getByRole('button', { name: 'Save' }).click();
+    await page.getByText(`box.toml:1: ${evil}`).waitFor();
+    const found = await page.evaluate(() => [globalThis.ran === undefined, document.querySelectorAll('img, b').length]);
+    equal(found, [true, 0], 'nothing ran, nothing became an element');
+    await visit.close();
+  },
 };
