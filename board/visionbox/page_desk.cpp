@@ -220,9 +220,12 @@ Json PageDesk::session_json(const std::string& cookie, MonotonicTime now) {
   json["login"] = access_->asks_passwords();
   json["operator"] = operator_json(cookie, now);
   json["box"] = {{"version", program_version()},
-                 {"boot", reported_ ? report_.boots.words() : ""},
                  {"source", name_of(box_.settings->source.kind)},
                  {"calibration", box_.settings->session.camera_quality.id}};
+  if (reported_ && report_.boots.known()) {
+    json["box"]["boot"] = report_.boots.words();
+  }
+  json["now_s"] = seconds(box_.clock->now());
   json["frame"] = {{"width", camera.width_px}, {"height", camera.height_px}};
   json["languages"] = {"en"};
   return json;
@@ -456,7 +459,7 @@ PageDesk::Answer PageDesk::begin(const Request& request, const Call& call, const
   start.seen_field = field_of(body);
   const std::lock_guard lock(mutex_);
   const bool confirmed = flag_of(body, "confirmed");
-  if (auto warning = errands_.warn_of_track(request.cookie, confirmed, tracks())) {
+  if (auto warning = errands_.warn(request.cookie, confirmed, {tracks(), own})) {
     return warning;
   }
   // What was not told to this person is not confirmed by him.

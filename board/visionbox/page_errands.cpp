@@ -15,6 +15,15 @@ constexpr MonotonicTime kReplyPatience = std::chrono::seconds(2);
 constexpr MonotonicTime kRecordingPatience = std::chrono::seconds(60);
 constexpr const char* kTooMuch = "the box has too much to do, ask again";
 constexpr const char* kTracking = "tracking";
+constexpr const char* kNumbering = "numbering";
+
+drivers::PageAnswer warning(const char* refusal, const char* words, const char* advice) {
+  return json_answer({{"taken", false},
+                      {"refusal", refusal},
+                      {"words", words},
+                      {"advice", advice},
+                      {"confirmable", true}});
+}
 
 }  // namespace
 
@@ -51,20 +60,22 @@ PageErrands::Answer PageErrands::record(const Call& call) {
   return {};
 }
 
-PageErrands::Answer PageErrands::warn_of_track(const std::string& cookie, bool confirmed,
-                                               bool tracks) {
+PageErrands::Answer PageErrands::warn(const std::string& cookie, bool confirmed,
+                                      const StartRisks& risks) {
   std::set<std::string>& warned = warned_[cookie];
   if (!confirmed) {
     warned.clear();
   }
-  if (!tracks || !warned.insert(kTracking).second) {
-    return {};
+  if (risks.tracks && warned.insert(kTracking).second) {
+    return warning(kTracking, "the box tracks already: a new start replaces what it knows",
+                   "Confirm if that is what you want.");
   }
-  return json_answer({{"taken", false},
-                      {"refusal", kTracking},
-                      {"words", "the box tracks already: a new start replaces what it knows"},
-                      {"advice", "Confirm if that is what you want."},
-                      {"confirmable", true}});
+  // A lattice turned by half a turn looks the same, and its numbers would all be wrong.
+  if (risks.clicked && warned.insert(kNumbering).second) {
+    return warning(kNumbering, "nothing in the picture tells whether the numbers are turned",
+                   "Compare a second tube-end with the plan, then confirm.");
+  }
+  return {};
 }
 
 bool PageErrands::was_refused(const std::string& cookie, core::StartRefusal refusal) const {

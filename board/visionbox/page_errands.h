@@ -52,8 +52,14 @@ class PageErrands {
 
   [[nodiscard]] Answer record(const Call& call);
 
-  /// Warns a session of something that a start would do, unless it was warned and confirms.
-  [[nodiscard]] Answer warn_of_track(const std::string& cookie, bool confirmed, bool tracks);
+  /// What somebody has to be warned of before he starts.
+  struct StartRisks {
+    bool tracks = false;   ///< the box knows a place already
+    bool clicked = false;  ///< a person numbered the tube-ends: perhaps turned
+  };
+  /// Warns a session of what a start would risk, one after the other, unless it was warned of it
+  /// and confirms.
+  [[nodiscard]] Answer warn(const std::string& cookie, bool confirmed, const StartRisks& risks);
   /// Whether a start of this session was refused for this and nothing was started since.
   [[nodiscard]] bool was_refused(const std::string& cookie, core::StartRefusal refusal) const;
   /// Forgets what sessions were told that have ended.

@@ -160,6 +160,28 @@ class Alone(unittest.TestCase):
         self.assertEqual(other.ask("POST", "/api/lamp", {"permille": 900})[1],
                          {"permille": 900, "automatic": False})
 
+    def test_a_start_by_clicks_needs_a_person_who_was_warned_of_turned_numbers(self):
+        browser = self.browser
+        browser.ask("POST", "/api/operator", {"take": True, "name": "Cy", "confirmed": True})
+        turned = {"tubes": [{"row": 1, "column": 1, "u": 9, "v": 9}], "confirmed": True}
+        told = [browser.ask("POST", "/api/start", turned)[1] for _ in range(3)]
+        warnings = [each["refusal"] for each in told if each["confirmable"]]
+        self.assertIn(warnings, (["numbering"], ["tracking", "numbering"]))
+        self.assertIn("turned", told[len(warnings) - 1]["words"])
+        # Another session was warned of nothing, whatever it confirms.
+        other = Browser(self.box.port)
+        other.begin()
+        other.ask("POST", "/api/operator", {"take": True, "name": "Di", "confirmed": True})
+        self.assertTrue(other.ask("POST", "/api/start", turned)[1]["confirmable"])
+
+    def test_a_session_tells_the_clock_of_the_pictures(self):
+        first = self.browser.ask("GET", "/api/session")[1]
+        _, sighting, _ = self.browser.frame(-1)
+        then = self.browser.ask("GET", "/api/session")[1]
+        self.assertLessEqual(sighting["time_s"], then["now_s"])
+        self.assertLess(first["now_s"], then["now_s"])
+        self.assertNotIn("boot", then["box"])  # nobody counts them here
+
     def wait_for(self, browser, condition):
         deadline, after = time.monotonic() + 20, -1
         while time.monotonic() < deadline:

@@ -377,8 +377,10 @@ export class StartScreen {
     this.accept.disabled = true;
     const start = { field: this.frame.sighting.field, tubes: this.tubes(), confirmed };
     let answer = await this.box.post('/api/start', start);
-    if (agreed && answer.data.refusal === 'tracking' && answer.data.confirmable) {
-      // That is what was just agreed to.
+    // Warnings of what was just agreed to, or compared.
+    const known = { tracking: agreed, numbering: !this.sureRow.hidden && this.sure.checked };
+    while (answer.data.confirmable && known[answer.data.refusal]) {
+      known[answer.data.refusal] = false;
       answer = await this.box.post('/api/start', { ...start, confirmed: true });
     }
     if (answer.good && answer.data.taken) {

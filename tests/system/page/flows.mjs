@@ -84,7 +84,7 @@ export const flows = {
     await visit.page.getByRole('button', { name: 'Start all the same' }).click();
     await visit.page.getByRole('button', { name: 'I have checked: start' }).click();
     await visit.page.waitForURL(/#live/);
-    equal((await visit.posted('/api/start')).map((sent) => sent.confirmed), [false, true], 'starts sent');
+    equal((await visit.posted('/api/start')).map((sent) => sent.confirmed), [false, true, true], 'starts sent');
     await visit.close();
   },
 
@@ -106,6 +106,9 @@ export const flows = {
     await nameTube(visit, 314, 247, 41, 60, 2);
     await nameTube(visit, 393, 189, 40, 61, 3);
     await startButton(visit).click();
+    await visit.page.getByRole('alert').getByText('whether the numbers are turned').waitFor();
+    await visit.page.getByRole('button', { name: 'Start all the same' }).click();
+    await visit.page.getByRole('button', { name: 'I have checked: start' }).click();
     await visit.page.waitForURL(/#live/);
     const [sent] = await visit.posted('/api/start');
     equal(sent.tubes.map((tube) => [tube.row, tube.column]), [[40, 60], [41, 60], [40, 61]], 'tube-ends of the start');
@@ -125,7 +128,7 @@ export const flows = {
     await startButton(visit).click();
     await visit.page.getByRole('button', { name: 'Replace the track' }).click();
     await visit.page.waitForURL(/#live/);
-    equal((await visit.posted('/api/start')).length, 1, 'starts sent');
+    equal((await visit.posted('/api/start')).length, 2, 'starts sent, the second confirms the numbering');
     await visit.close();
   },
 
@@ -239,7 +242,7 @@ export const flows = {
     await tabTo('Start tracking');
     await page.keyboard.press('Enter');
     await page.waitForURL(/#live/);
-    equal((await visit.posted('/api/start')).length, 1, 'starts sent');
+    equal((await visit.posted('/api/start')).length, 2, 'starts sent, the second confirms the numbering');
     await tabTo('Camera picture');
     await visit.standing('vouched');
     await page.keyboard.press('ArrowRight');
@@ -378,6 +381,7 @@ export const flows = {
   'trouble-shooting: lamp, recording, estimates': async (browser, base) => {
     const visit = await Visit.open(browser, base, { hash: '#trouble' });
     await visit.operate();
+    await visit.page.getByText('62 %').waitFor();
     await visit.page.getByLabel('Lamp', { exact: true }).focus();
     await visit.page.keyboard.press('ArrowRight');
     await visit.page.getByText('63 %, by hand').waitFor();

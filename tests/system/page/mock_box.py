@@ -143,6 +143,7 @@ class Client:
         self.operator = {"held": False, "mine": False}
         self.frozen = None
         self.started = None
+        self.warned = set()
         self.acknowledged = None
         self.disagreement = False
         self.lamp = {"permille": 620, "automatic": True, "words": "well"}
@@ -155,6 +156,7 @@ class Client:
         self.scene = scene
         self.since = time.monotonic()
         self.started = None
+        self.warned = set()
         if "password" in SCENES[scene]:
             self.role = "none"
 
@@ -230,16 +232,28 @@ class Box:
 
     def start(self, client, body):
         """As the box: the address of the first must be 40/60 for the tube-end at (310, 191)."""
+        if not body.get("confirmed"):
+            client.warned.clear()
+        if self.warns(client, "numbering"):
+            return {"taken": False, "refusal": "numbering", "confirmable": True,
+                    "words": "nothing in the picture tells whether the numbers are turned"}
         first = body["tubes"][0]
         tubes = self.recording.tubes[0]
         for index, tube in enumerate(body["tubes"]):
             row, column, *_ = min(tubes, key=lambda t: (t[2] - tube["u"]) ** 2 + (t[3] - tube["v"]) ** 2)
-            if (row, column) != (tube["row"], tube["column"]) and not body.get("confirmed"):
+            if (row, column) != (tube["row"], tube["column"]) and self.warns(client, "map"):
                 return {"taken": False, "refusal": "map", "click": index, "confirmable": index == 0 and first["row"] == 48,
                         "words": f"tube-end {index + 1}: the settings know a plug at {tube['row']} / {tube['column']}, "
                                  "and an open tube-end stands there"}
         client.started = body
         return {"taken": True}
+
+    @staticmethod
+    def warns(client, kind):
+        """Once, as the box does."""
+        new = kind not in client.warned
+        client.warned.add(kind)
+        return new
 
 
 class Handler(http.server.BaseHTTPRequestHandler):
