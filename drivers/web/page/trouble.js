@@ -43,6 +43,8 @@ export class TroubleScreen {
     this.histogramAt = 0;
     const lamp = labelled('Lamp', { type: 'range', min: 0, max: 1000, step: 10, value: 0 });
     this.lamp = lamp.input;
+    // Until it is known where it stands: a key would begin at 0.
+    this.lamp.disabled = true;
     this.lampWords = make('output', { class: 'step-words', for: this.lamp.id });
     this.lamp.addEventListener('input', () => tell(this.lampWords, `${this.lamp.value / 10} %`));
     this.lamp.addEventListener('change', () => this.setLamp({ permille: Number(this.lamp.value) }));
@@ -116,6 +118,7 @@ export class TroubleScreen {
       ),
     );
     if (lamp) {
+      this.lamp.disabled = false;
       if (document.activeElement !== this.lamp) {
         this.lamp.value = String(lamp.permille);
       }
