@@ -68,7 +68,7 @@ _tubesight() {
       taking=""
       ;;
     journal)
-      options="-h --help"
+      options="-h --help -q --quiet -v --verbose"
       taking="--key --at-least --csv --jsonl"
       ;;
     *) return ;;

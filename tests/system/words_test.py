@@ -6,7 +6,9 @@ Usage: words_test.py PROGRAM REPOSITORY
 import os
 import pathlib
 import pty
+import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -280,9 +282,24 @@ class Talk(Folder):
             "look": (["look", self.still], f"{self.still}: 635 x 480 pixels, read by itself\n"),
             "calibrate": (["calibrate", "import", "c.yaml", "--out", "c.toml"], ""),
             "budget": (["budget", "s.toml", "--robots", "1"], "s.toml: read\n"),
+            "journal": (["journal", "check", self.journal()], ""),
             "campaign": (["campaign", "--moves", "1"], ", seed 1 from number 0, 1 at a time\n"),
             "simulate": (["simulate", "whole.toml", "--out", "drawn"], "whole.toml: read, with "),
         }
+
+    def journal(self):
+        """One of no rows, as docs/journal.md has it: nothing is wrong with it."""
+        columns = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \| (TEXT|INTEGER) \|",
+                             (REPOSITORY / "docs/journal.md").read_text(encoding="utf-8"), re.MULTILINE)
+        table = ", ".join(f"{name} {kind}" for names, kind in columns for name in re.findall(r"\w+", names))
+        database = sqlite3.connect(self.folder / "j.db")
+        database.executescript(
+            "PRAGMA application_id = 0x54534a31; PRAGMA user_version = 1;"
+            f"CREATE TABLE journal({table}) STRICT;"
+            "CREATE TABLE checkpoint(n INTEGER PRIMARY KEY, chain TEXT, key TEXT, signature TEXT) STRICT;"
+            "CREATE TABLE picture(digest TEXT PRIMARY KEY, n INTEGER, jpeg BLOB) STRICT;")
+        database.close()
+        return "j.db"
 
     def test_quiet_and_verbose(self):
         parts = REPOSITORY / "tests/data/scenarios/parts"
