@@ -175,6 +175,8 @@ void Dialogue::read(std::int32_t first, FieldTime now, std::span<std::uint16_t> 
     encode_health(*state_, image_);
   } else if (block->name == Block::kSelfTest) {
     encode_self_test(state_->self_test, image_);
+  } else if (block->name == Block::kJournal) {
+    encode_journal(state_->journal, image_);
   } else if (block->name == Block::kZone) {
     encode_zone(state_->identity.zones,
                 {image_.get(Register::kZoneTubeRow), image_.get(Register::kZoneTubeColumn)},

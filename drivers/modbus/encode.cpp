@@ -183,6 +183,15 @@ void encode_health(const LinkState& state, RegisterImage& image) {
   image.set(kClaimResponseWorst, counters.claim_response_worst_us);
 }
 
+void encode_journal(const LinkJournal& journal, RegisterImage& image) {
+  using enum Register;
+  image.set(kJournal, journal.state);
+  image.set(kJournalReserved, 0);
+  image.set(kJournalSafe, journal.safe & INT32_MAX);
+  image.set(kJournalWaiting, journal.waiting & INT32_MAX);
+  image.set(kJournalLost, journal.lost & INT32_MAX);
+}
+
 void encode_self_test(const LinkSelfTest& self_test, RegisterImage& image) {
   using enum Register;
   image.set(kSelfTest, static_cast<std::int64_t>(self_test.verdict));

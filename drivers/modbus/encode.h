@@ -18,6 +18,9 @@ inline constexpr core::FieldTime kSightingLasts = std::chrono::milliseconds(100)
 void encode_identity(const LinkIdentity& identity, RegisterImage& image);
 void encode_health(const LinkState& state, RegisterImage& image);
 
+/// The block journal.
+void encode_journal(const LinkJournal& journal, RegisterImage& image);
+
 /// The block self_test.
 void encode_self_test(const LinkSelfTest& self_test, RegisterImage& image);
 

@@ -37,6 +37,7 @@ class Exchange {
   core::Snapshot<Shown> shown;
   core::Snapshot<LinkHealth> health;
   core::Snapshot<LinkSelfTest> self_test;
+  core::Snapshot<LinkJournal> journal;
   core::Snapshot<LinkCounters> counters;  ///< as they are, from the server
   std::atomic<std::uint32_t> losses{0};   ///< messages that came garbled or found no room
   std::atomic<bool> connected{false};     ///< there is a line

@@ -51,6 +51,14 @@ struct LinkSelfTest {
   std::int64_t up_s = 0;
 };
 
+/// What the robot reads of the journal.
+struct LinkJournal {
+  std::int32_t state = 0;  ///< kJournalNone, kJournalWriting or kJournalStanding
+  std::int64_t safe = 0;   ///< number of the last row that is safe on the disk
+  std::int64_t waiting = 0;
+  std::int64_t lost = 0;
+};
+
 /// What has come over the line so far, and how long the box took.
 struct LinkCounters {
   std::uint32_t requests = 0;
@@ -77,6 +85,7 @@ struct LinkState {
   std::uint32_t sequence = 0;              ///< of that; 0: none yet
   LinkHealth health;
   LinkSelfTest self_test;
+  LinkJournal journal;
   LinkCounters counters;
 };
 

@@ -44,6 +44,7 @@ class ModbusRobotLink final : public hal::RobotLink {
   void set_health(const LinkHealth& health) { exchange_.health.publish(health); }
 
   /// What the robot reads of the box's test of itself; any one thread, started or not.
+  void set_journal(const LinkJournal& journal) { exchange_.journal.publish(journal); }
   void set_self_test(const LinkSelfTest& self_test) { exchange_.self_test.publish(self_test); }
 
   /// What has come over the line so far; false where it changes just now, or nothing came since

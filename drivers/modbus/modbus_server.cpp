@@ -14,6 +14,7 @@ ModbusServer::ModbusServer(const ModbusSettings& settings, const LinkIdentity& i
              .sequence = 0,
              .health = {},
              .self_test = {},
+             .journal = {},
              .counters = {}},
       outbox_(exchange.events),
       serial_(settings.serial, settings.word_order, state_, outbox_, clock),
@@ -91,6 +92,10 @@ void ModbusServer::take_news() {
   LinkSelfTest self_test;
   if (exchange_->self_test.try_read(self_test)) {
     state_.self_test = self_test;
+  }
+  LinkJournal journal;
+  if (exchange_->journal.try_read(journal)) {
+    state_.journal = journal;
   }
   core::Reply reply;
   while (exchange_->replies.try_pop(reply)) {

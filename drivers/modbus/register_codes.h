@@ -72,7 +72,13 @@ enum class SelfTestBit : std::uint8_t {
   kMemory = 11,
   kBoots = 12,
   kWatchdog = 13,
+  kJournal = 14,
 };
+
+/// The register journal.
+inline constexpr std::int32_t kJournalNone = 0;
+inline constexpr std::int32_t kJournalWriting = 1;
+inline constexpr std::int32_t kJournalStanding = 2;
 
 /// Registers start_result and lamp_result, pick_result: 2 is always the refusal.
 inline constexpr std::int32_t kResultTaken = 1;

@@ -254,7 +254,8 @@ constexpr RegisterRow kTable[] = {
      "0: not finished, 1: nothing is bad, 2: something is"},
     {Register::kSelfTestBad, 1, 681, 1, "bits", "self_test_bad",
      "what is bad at present: bit 0: numbers, 1: camera, 2: rate, 3: time, 4: identity, 5: lamp, "
-     "6: pattern, 7: link, 8: disk, 9: pairs, 10: priority, 11: memory, 12: boots, 13: watchdog"},
+     "6: pattern, 7: link, 8: disk, 9: pairs, 10: priority, 11: memory, 12: boots, 13: watchdog, "
+     "14: journal"},
     {Register::kSelfTestAbsent, 1, 682, 1, "bits", "self_test_absent",
      "what is not there, not wanted, or not known yet: the same bits"},
     {Register::kSelfTestReserved, 1, 683, 1, "", "self_test_reserved", "always 0"},
@@ -263,6 +264,14 @@ constexpr RegisterRow kTable[] = {
     {Register::kStartNumber, 2, 686, 1, "", "start_number",
      "starts of its program since then, this one among them"},
     {Register::kUp, 2, 688, 1, "s", "up", "since the start of the program"},
+    {Register::kJournal, 1, 700, 1, "code", "journal",
+     "0: none is kept, 1: writing, 2: standing still, as the disk is full, slow or gone"},
+    {Register::kJournalReserved, 1, 701, 1, "", "journal_reserved", "always 0"},
+    {Register::kJournalSafe, 2, 702, 1, "", "journal_safe",
+     "number of the last row that is safe on the disk"},
+    {Register::kJournalWaiting, 2, 704, 1, "", "journal_waiting", "rows that wait for the disk"},
+    {Register::kJournalLost, 2, 706, 1, "", "journal_lost",
+     "rows that found no room since the start of the program"},
 };
 
 constexpr RegisterBlock kBlocks[] = {
@@ -277,6 +286,7 @@ constexpr RegisterBlock kBlocks[] = {
     {Block::kZoneTube, true, 640, 643, "zone_tube"},
     {Block::kZone, false, 650, 665, "zone"},
     {Block::kSelfTest, false, 680, 689, "self_test"},
+    {Block::kJournal, false, 700, 707, "journal"},
 };
 
 constexpr bool is_sound() {

@@ -200,6 +200,12 @@ enum class Register : std::uint8_t {
   kBootNumber,
   kStartNumber,
   kUp,
+  // journal
+  kJournal,
+  kJournalReserved,
+  kJournalSafe,
+  kJournalWaiting,
+  kJournalLost,
   kCount,
 };
 
@@ -216,6 +222,7 @@ enum class Block : std::uint8_t {
   kZoneTube,
   kZone,
   kSelfTest,
+  kJournal,
 };
 
 /// Where a value stands and what its number means.
@@ -242,7 +249,7 @@ struct RegisterBlock {
 };
 
 /// Words of the whole map, those between its blocks among them.
-inline constexpr std::int32_t kMapWords = 690;
+inline constexpr std::int32_t kMapWords = 708;
 
 /// What the map says where a value is not known; its validity bit is off as well.
 inline constexpr std::int32_t kUnknown = INT32_MIN;

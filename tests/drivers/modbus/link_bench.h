@@ -69,6 +69,7 @@ class LinkBench {
                            .sequence = 5,
                            .health = {},
                            .self_test = {},
+                           .journal = {},
                            .counters = {}};
   drivers::EventQueue events;
   drivers::Outbox outbox{events};
