@@ -144,6 +144,9 @@ void BoxLoop<S, Margin>::take(const core::Field& field) {
   set_lamp();
   serve_poses();
   publish();
+  if (services_.journal != nullptr) {
+    services_.journal->take(input_, output_);
+  }
   record();
 }
 

@@ -7,6 +7,7 @@
 
 #include "board/box/event_recorder.h"
 #include "board/box/frame_view.h"
+#include "board/box/journal_desk.h"
 #include "board/box/overlay_news.h"
 #include "board/box/overlay_snapshot.h"
 #include "board/box/pair_desk.h"
@@ -49,6 +50,7 @@ struct BoxServices {
   core::lighting::LampPolicy lamp{};  ///< what the session may do with the dimmer's lamp
   PairDesk* pairs = nullptr;          ///< keeps poses by the robot and by the box side by side
   PictureTap* tap = nullptr;          ///< hands fields and their marks to whoever shows them
+  JournalDesk* journal = nullptr;     ///< hands over what belongs into the journal
 };
 
 /// What went wrong on one line so far.

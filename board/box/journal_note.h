@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/base/event.h"
@@ -32,6 +33,8 @@ struct JournalNote {
   std::int64_t lost = 0;
   bool seen_known = false;  ///< `seen` is of the field judged by
   core::Sighting seen;
+  std::int32_t picture = -1;      ///< place of that field's pixels in the desk; -1: none
+  std::array<char, 64> digest{};  ///< SHA-256 of them, of whoever reads them; 0: not known
 };
 
 }  // namespace tubesight::board

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "board/box/box_loop.h"
+#include "board/box/journal_desk.h"
 #include "board/box/pair_desk.h"
 #include "board/box/pose_service.h"
 #include "drivers/files/messages.h"
@@ -135,20 +136,25 @@ class Lamp final : public hal::Dimmer {
   std::int32_t level_ = 0;
 };
 
+/// With the shipped recording.
+bool fill(MemoryGrabber& grabber, const core::CameraSettings& camera) {
+  drivers::ReplayFrameGrabber recording(camera, std::string(kFolder) + "recording.y4m.xz");
+  if (!recording.start()) {
+    return false;
+  }
+  while (const auto lease = recording.grab_for(kTimeout)) {
+    grabber.keep(lease->field());
+  }
+  return true;
+}
+
 TEST(BoxHeap, IsNotTouchedByATurn) {
   const auto file = std::make_unique<drivers::SessionFile>();
   drivers::Messages messages;
   ASSERT_TRUE(drivers::load_session_settings(std::string(kFolder) + "session.toml",
                                              drivers::kReplayNeeds, *file, messages));
   MemoryGrabber grabber;
-  {
-    drivers::ReplayFrameGrabber recording(file->settings.camera,
-                                          std::string(kFolder) + "recording.y4m.xz");
-    ASSERT_TRUE(recording.start());
-    while (const auto lease = recording.grab_for(kTimeout)) {
-      grabber.keep(lease->field());
-    }
-  }
+  ASSERT_TRUE(fill(grabber, file->settings.camera));
   const auto session = std::make_unique<core::session::Session<core::FixedPoint>>();
   ASSERT_TRUE(session->configure(file->settings));
   PoseService poses;
@@ -167,9 +173,10 @@ TEST(BoxHeap, IsNotTouchedByATurn) {
                                  core::session::Session<core::FixedPoint>::state_bytes()));
   recorder.request();
   PairDesk pairs;
+  JournalDesk journal(file->settings.camera.width_px, file->settings.camera.height_px);
   const auto loop = std::make_unique<BoxLoop<core::FixedPoint>>(
       *session, BoxPorts{&grabber, &clock, &lamp, &robot, &person},
-      BoxServices{&poses, &view, overlay.get(), true, &recorder, {}, &pairs});
+      BoxServices{&poses, &view, overlay.get(), true, &recorder, {}, &pairs, nullptr, &journal});
   ASSERT_TRUE(loop->start());
 
   int tracked = 0;
@@ -191,6 +198,8 @@ TEST(BoxHeap, IsNotTouchedByATurn) {
   EXPECT_EQ(recorder.counters().refused, 0U);
   EXPECT_GE(robot.replies, 40);
   EXPECT_GE(person.replies, 40);
+  JournalNote note;
+  EXPECT_TRUE(journal.take_note(note));
   EXPECT_EQ(calls.allocations, 0);
   EXPECT_EQ(calls.releases, 0);
 }
