@@ -323,6 +323,22 @@ Result<void> SqliteJournal::give_up(Error error) {
   return Unexpected(error == Error::kDataLoss ? Error::kIo : error);
 }
 
+std::string SqliteJournal::last_detail(hal::JournalKind kind) {
+  constexpr std::int64_t kBack = 100'000;
+  SqliteStatement rows;
+  if (!database_.is_open() ||
+      !rows.prepare(database_,
+                    "SELECT coalesce(detail, '') FROM journal WHERE n > ? AND kind = ?"
+                    " ORDER BY n DESC LIMIT 1")) {
+    return {};
+  }
+  rows.bind(1, JournalCell(last_safe_ - kBack));
+  const JournalCell name{std::string(hal::name_of(kind))};
+  rows.bind(2, name);
+  const auto row = rows.step();
+  return row && *row ? rows.text(0) : std::string();
+}
+
 void SqliteJournal::close() {
   if (database_.is_open()) {
     // Where the disk refuses, the rows are there all the same, and the next checkpoint covers them.

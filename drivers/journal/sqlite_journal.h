@@ -46,6 +46,9 @@ class SqliteJournal final : public hal::Journal {
   [[nodiscard]] core::Result<void> sign() override;
   [[nodiscard]] std::int64_t last_safe() const override { return last_safe_; }
 
+  /// The detail of the newest row of a kind among the last hundred thousand; empty: there is none.
+  [[nodiscard]] std::string last_detail(hal::JournalKind kind);
+
   [[nodiscard]] bool is_open() const { return database_.is_open(); }
 
   /// The last failure, in one line.
