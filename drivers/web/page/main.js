@@ -84,7 +84,7 @@ function showFromAddress() {
 // Health: what the picture hangs on, in words.
 
 const chips = Object.fromEntries(
-  ['Box', 'Camera', 'Lamp', 'Robot'].map((name) => [name, make('li', {})]),
+  ['Box', 'Camera', 'Lamp', 'Robot', 'Journal'].map((name) => [name, make('li', {})]),
 );
 
 function chip(name, good, words) {
@@ -121,6 +121,12 @@ function showHealth() {
       : link.state !== 'down' && isWell(link.words || link.state),
     link && (link.state === 'none' ? 'not connected' : link.words || link.state),
   );
+  const journal = up && box.status ? box.status.journal : null;
+  chips.Journal.hidden = !journal || journal.state === 'none';
+  if (!chips.Journal.hidden) {
+    const writes = journal.state === 'writing';
+    chip('Journal', writes, writes ? `safe to row ${journal.safe}` : journal.trouble || journal.state);
+  }
 }
 
 // The operator.

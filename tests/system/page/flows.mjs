@@ -252,6 +252,21 @@ export const flows = {
     await visit.close();
   },
 
+  'journal: told where there is one, and that it stands still': async (browser, base) => {
+    const visit = await Visit.open(browser, base);
+    await visit.standing('vouched');
+    const chip = visit.page.locator('#health li').filter({ hasText: 'Journal' });
+    check(await chip.isHidden(), 'a journal that nobody keeps is told');
+    await visit.mock({ status: { journal: { state: 'writing', safe: 1234 } } });
+    await visit.page.getByText('✓ Journal').waitFor();
+    equal(await chip.getAttribute('title'), 'safe to row 1234', 'the last row that is safe');
+    await visit.mock({ status: { journal: { state: 'standing still', safe: 1234, trouble: 'J.db: the disk is full' } } });
+    await visit.page.getByText('✕ Journal: J.db: the disk is full').waitFor();
+    equal(await accessibility(visit.page), [], 'accessibility');
+    await visit.standing('vouched');
+    await visit.close();
+  },
+
   'frozen camera: not vouched any more, greyed, with its age': async (browser, base) => {
     const visit = await Visit.open(browser, base);
     await stopsVouching(visit, () => visit.mock({ scene: 'frozen' }));

@@ -144,6 +144,7 @@ class Client:
         self.frozen = None
         self.started = None
         self.warned = set()
+        self.more_status = {}  # beside the usual
         self.acknowledged = None
         self.disagreement = False
         self.lamp = {"permille": 620, "automatic": True, "words": "well"}
@@ -339,7 +340,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
                                                        "link": {"garbled": 0, "gone": 0, "lost_replies": 0}},
                                           "camera": {"well": True, "fields_per_s": 60.0, "gaps": 0},
                                           "latency": {"median_us": 812, "p99_us": 1490, "worst_us": 2210},
-                                          "recorder": {"written": 2, "failed": 0, "room_mb": 812}}))
+                                          "recorder": {"written": 2, "failed": 0, "room_mb": 812}} | client.more_status))
             text = "".join(f"event: {kind}\ndata: {json.dumps(data)}\n\n" for kind, data in events) or ": still here\n\n"
             self.wfile.write(text.encode())
             self.wfile.flush()
@@ -414,6 +415,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if "disagreement" in body:
             client.disagreement = True
             client.events.append(("disagreement", {"id": "d1"}))
+        client.more_status = body.get("status", client.more_status)
         if "role" in body:
             client.role = body["role"]
         for path, answer in body.get("replies", {}).items():
