@@ -56,6 +56,8 @@ std::string BootCount::words() const {
                  : "boots are not numbered: " + trouble;
 }
 
+std::string kernel_boot_id(const std::string& boot_id_file) { return first_word_of(boot_id_file); }
+
 BootCount count_boot(const std::string& folder, const std::string& boot_id_file) {
   BootCount count;
   if (folder.empty()) {

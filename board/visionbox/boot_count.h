@@ -21,6 +21,9 @@ struct BootCount {
 /// The kernel's own name of this start of the machine, another one at each.
 inline constexpr const char* kBootIdFile = "/proc/sys/kernel/random/boot_id";
 
+/// That name; empty: it cannot be read.
+[[nodiscard]] std::string kernel_boot_id(const std::string& boot_id_file = kBootIdFile);
+
 /// Counts one more start in the file `boots` of this folder, which a power cut leaves old or new.
 ///
 /// A number that cannot be written down is not used: after the next start it would be given again.

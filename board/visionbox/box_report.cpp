@@ -120,6 +120,15 @@ void add_pairs(JsonLine& line, const PairsReport& pairs) {
   line.close();
 }
 
+void add_journal(JsonLine& line, const JournalReport& journal) {
+  line.open("journal").add("state", name_of(journal.state));
+  if (!journal.file.empty()) {
+    line.add("file", journal.file).add("safe", journal.safe).add("waiting", journal.waiting);
+    line.add("lost", journal.lost).add("trouble", journal.trouble);
+  }
+  line.close();
+}
+
 void add_recorder(JsonLine& line, const BoxReport& report) {
   line.open("recorder").add("there", there_is_recorder(report));
   if (there_is_recorder(report)) {
@@ -195,6 +204,7 @@ std::string status_text(const BoxReport& report, const std::string& bad) {
   text += "\nlink      " + link_text(report);
   text += "\nrecorder  " + recorder_text(report);
   text += report.pairs.file.empty() ? "" : "\npairs     " + pairs_text(report.pairs);
+  text += report.journal.file.empty() ? "" : "\njournal   " + journal_text(report.journal);
   text += std::string("\nself-test ") + (!report.self_test_finished ? "not finished"
                                          : bad.empty()              ? "nothing is bad"
                                                                     : "bad: " + bad);
@@ -232,6 +242,7 @@ std::string status_answer(const BoxReport& report) {
   add_link(line, report);
   add_recorder(line, report);
   add_pairs(line, report.pairs);
+  add_journal(line, report.journal);
   line.open("zones").add("places", std::int64_t{report.zones});
   line.add("known", report.zones_known).close();
   line.open("realtime").add("scheduled", report.tracking.scheduled);

@@ -10,6 +10,7 @@
 #include "board/visionbox/camera.h"
 #include "board/visionbox/field_source.h"
 #include "board/visionbox/golden_recording.h"
+#include "board/visionbox/journal_writer.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/lamp_keeper.h"
 #include "board/visionbox/pairs_writer.h"
@@ -40,6 +41,7 @@ struct BoxReport {
   LinkReport link;
   RecorderReport recorder;
   PairsReport pairs;
+  JournalReport journal;
   std::int32_t zones = 0;     ///< places that corrections were seen at
   bool zones_known = false;   ///< between those, too, by now
   std::int32_t priority = 0;  ///< wanted

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "board/box/version.h"
+#include "board/visionbox/journal_store.h"
 
 namespace tubesight::board {
 namespace {
@@ -26,6 +27,7 @@ BoxService::BoxService(const BoxSettings& settings, const Found& found, Log& log
       supervisor_([this] { return box_.beats(); }, settings.watchdog, manager_, say_to(log)),
       watch_(say_to(log)),
       self_test_(say_to(log)),
+      faults_([this](JournalLine line) { box_.journal()->add(std::move(line)); }),
       desk_([this] { return report(); }, box_, settings.told().start),
       server_(desk_),
       page_(settings.page.wanted ? std::make_unique<PageDesk>(box_.page_box(), say_to(log))
@@ -43,6 +45,7 @@ bool BoxService::start() {
     log_->say(server_.message());
     return false;
   }
+  journal_boot("started");  // before all that follows from it
   if (!box_.start()) {
     log_->say("cannot be started");
     return false;
@@ -77,11 +80,44 @@ void BoxService::look_round() {
     page_->look(now);
   }
   self_test_.look(now);
-  box_.tell_robot(self_test_.told());
+  if (box_.journal() != nullptr) {
+    faults_.look(now);
+  }
+  tell_robot(now);
   if (watch_.headline() != told_manager_) {
     told_manager_ = watch_.headline();
     manager_.say_status(told_manager_);
   }
+}
+
+void BoxService::tell_robot(const BoxReport& now) {
+  drivers::LinkJournal journal;
+  switch (now.journal.state) {
+    case JournalReport::State::kNone: journal.state = drivers::kJournalNone; break;
+    case JournalReport::State::kWriting: journal.state = drivers::kJournalWriting; break;
+    case JournalReport::State::kStanding: journal.state = drivers::kJournalStanding; break;
+  }
+  journal.safe = now.journal.safe;
+  journal.waiting = now.journal.waiting;
+  journal.lost = now.journal.lost;
+  box_.tell_robot(self_test_.told(), journal);
+}
+
+/// The program's start and end, with what it is started with.
+void BoxService::journal_boot(std::string_view what) {
+  if (box_.journal() == nullptr) {
+    return;
+  }
+  JournalLine line;
+  line.kind = hal::JournalKind::kBoot;
+  line.detail = detail_word("what", what);
+  if (found_.boots.known()) {
+    line.detail += " " + detail_word("boot", std::to_string(found_.boots.boot)) + " " +
+                   detail_word("start", std::to_string(found_.boots.start));
+  }
+  line.detail += " " + detail_word("settings", settings_digest(settings_->page.file));
+  line.detail += " " + detail_word("golden", found_.golden.good ? "good" : "bad");
+  box_.journal()->add(std::move(line));
 }
 
 void BoxService::stop() {
@@ -90,6 +126,7 @@ void BoxService::stop() {
   if (page_ != nullptr) {
     page_->stop();
   }
+  journal_boot("ended");
   box_.stop();
   desk_.serve_replies(server_, monotonic_now());  // what stop() wrote, somebody may wait for
   server_.stop();

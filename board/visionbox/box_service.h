@@ -8,6 +8,7 @@
 #include "board/visionbox/box_watch.h"
 #include "board/visionbox/control_desk.h"
 #include "board/visionbox/golden_recording.h"
+#include "board/visionbox/journal_faults.h"
 #include "board/visionbox/log.h"
 #include "board/visionbox/page_desk.h"
 #include "board/visionbox/self_test_watch.h"
@@ -50,6 +51,8 @@ class BoxService {
 
  private:
   void look_round();
+  void tell_robot(const BoxReport& now);
+  void journal_boot(std::string_view what);
 
   const BoxSettings* settings_;
   Log* log_;
@@ -59,6 +62,7 @@ class BoxService {
   Supervisor supervisor_;
   BoxWatch watch_;
   SelfTestWatch self_test_;
+  JournalFaults faults_;
   ControlDesk desk_;
   drivers::ControlServer server_;
   std::unique_ptr<PageDesk> page_;  ///< null: there is none

@@ -26,9 +26,9 @@ namespace {
 using drivers::SettingsDocument;
 using drivers::TableReader;
 
-constexpr std::array<std::string_view, 10> kBoxTables = {"source", "control", "page",  "realtime",
-                                                         "link",   "record",  "pairs", "zones",
-                                                         "lamp",   "watchdog"};
+constexpr std::array<std::string_view, 11> kBoxTables = {
+    "source", "control", "page",    "realtime", "link",    "record",
+    "pairs",  "zones",   "journal", "lamp",     "watchdog"};
 constexpr std::array<std::string_view, 4> kSourceKinds = {"replay", "simulated", "v4l2", "aravis"};
 constexpr std::array<std::string_view, 4> kPlayedKeys = {"recording", "scenario", "at_end",
                                                          "script"};
@@ -170,6 +170,16 @@ double exposure_ms(const SourceSettings& source) {
                                           : 0.0;
 }
 
+/// What the box keeps on its disk.
+void read_kept(SettingsDocument& document, BoxSettings& box) {
+  drivers::read_table(document, "record", false,
+                      [&](TableReader& table) { read_record(document, table, box.record); });
+  drivers::read_table(document, "pairs", false,
+                      [&](TableReader& table) { read_pairs(document, table, box.pairs); });
+  drivers::read_table(document, "journal", false,
+                      [&](TableReader& table) { read_journal(document, table, box.journal); });
+}
+
 void read_all(SettingsDocument& document, BoxSettings& box) {
   box.source = {};
   box.control_socket.clear();
@@ -179,6 +189,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
   box.record = {};
   box.pairs = {};
   box.zones = {};
+  box.journal = {};
   box.lamp = {};
   box.watchdog = {};
   SourceLight light = SourceLight::kUnknown;
@@ -195,10 +206,7 @@ void read_all(SettingsDocument& document, BoxSettings& box) {
                       [&](TableReader& table) { read_real_time(table, box.real_time); });
   drivers::read_table(document, "link", false,
                       [&](TableReader& table) { read_link(table, box.link); });
-  drivers::read_table(document, "record", false,
-                      [&](TableReader& table) { read_record(document, table, box.record); });
-  drivers::read_table(document, "pairs", false,
-                      [&](TableReader& table) { read_pairs(document, table, box.pairs); });
+  read_kept(document, box);
   drivers::read_table(document, "zones", false, [&](TableReader& table) {
     read_zones(document, table, box.link.kind != LinkKind::kNone, box.zones);
   });

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "board/visionbox/journal_settings.h"
 #include "board/visionbox/lamp_settings.h"
 #include "board/visionbox/link_settings.h"
 #include "board/visionbox/page_settings.h"
@@ -55,6 +56,7 @@ struct BoxSettings {
   RecordSettings record;
   PageSettings page;
   PairsSettings pairs;
+  JournalSettings journal;
   ZonesSettings zones;
   LampSettings lamp;
   WatchdogSettings watchdog;

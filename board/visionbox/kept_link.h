@@ -53,6 +53,7 @@ class KeptLink final : public hal::RobotLink {
   void set_health(const drivers::LinkHealth& health) { link_.set_health(health); }
 
   /// What the robot reads of the box's test of itself. Of one thread.
+  void set_journal(const drivers::LinkJournal& journal) { link_.set_journal(journal); }
   void set_self_test(const drivers::LinkSelfTest& self_test) { link_.set_self_test(self_test); }
 
   /// Any thread.

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "board/box/version.h"
+#include "board/visionbox/journal_store.h"
 #include "board/visionbox/page_body.h"
 #include "board/visionbox/page_lattice.h"
 #include "board/visionbox/page_recordings.h"
@@ -194,7 +195,7 @@ PageDesk::Answer PageDesk::answer_post(const Request& request, const Call& call,
     return record(call);
   }
   if (path == "/api/settings" || path == "/api/settings/check") {
-    return change_settings(call, body, request.method == "PUT");
+    return change_settings(request, call, body);
   }
   return error_answer(501, "this box does not serve that: change it in the settings");
 }
@@ -465,6 +466,9 @@ PageDesk::Answer PageDesk::begin(const Request& request, const Call& call, const
   // What was not told to this person is not confirmed by him.
   start.confirmed =
       confirmed && errands_.was_refused(request.cookie, core::StartRefusal::kElsewhere);
+  if (box_.journal != nullptr) {
+    box_.journal->name(errands_.next_id(), access_->sessions().who_operates(monotonic_now()).name);
+  }
   return errand(request, call, start);
 }
 
@@ -514,6 +518,14 @@ PageDesk::Answer PageDesk::acknowledge(const Json& body) {
   if (!errands_.submit(core::Acknowledge{})) {
     return error_answer(503, "the box has too much to do, ask again");
   }
+  if (box_.journal != nullptr) {
+    JournalLine line;
+    line.kind = hal::JournalKind::kAcknowledgement;
+    line.origin = "operator";
+    line.detail = detail_word("by", name) + " " + detail_word("words", reason) + " " +
+                  detail_word("disagreement", std::to_string(*id));
+    box_.journal->add(std::move(line));
+  }
   listeners_.tell_all("disagreement", text({{"id", *id}}));
   return json_answer({{"acknowledged", true}});
 }
@@ -553,14 +565,34 @@ PageDesk::Answer PageDesk::settings(const Request& request) const {
   return settings_answer(box_.settings->page.file, request.path == "/api/backup");
 }
 
-PageDesk::Answer PageDesk::change_settings(const Call& call, const Json& body, bool save) {
+PageDesk::Answer PageDesk::change_settings(const Request& request, const Call& call,
+                                           const Json& body) {
   const auto found = body.find("text");
   if (found == body.end() || !found->is_string()) {
     return error_answer(400, "expected text");
   }
-  const bool taken = jobs_.add([this, call, save, settings = found->get<std::string>()] {
+  const bool save = request.method == "PUT";
+  std::string who = "engineer";
+  {
+    const std::lock_guard lock(mutex_);
+    drivers::PageSessions& sessions = access_->sessions();
+    if (sessions.operates(request.cookie)) {
+      who = sessions.who_operates(monotonic_now()).name;
+    }
+  }
+  const bool taken = jobs_.add([this, call, save, who, settings = found->get<std::string>()] {
     const std::string& file = box_.settings->page.file;
+    const bool journal = save && box_.journal != nullptr;
+    const std::string before = journal ? settings_digest(file) : std::string();
     call->answer(save ? save_settings(file, settings) : check_settings(file, settings));
+    if (const std::string now = journal ? settings_digest(file) : before; now != before) {
+      JournalLine line;
+      line.kind = hal::JournalKind::kSetting;
+      line.origin = "operator";
+      line.detail = "what=saved " + detail_word("by", who) + " " + detail_word("settings", now) +
+                    " " + detail_word("before", before);
+      box_.journal->add(std::move(line));
+    }
   });
   return taken ? Answer() : error_answer(503, "the box has too much to do, ask again");
 }

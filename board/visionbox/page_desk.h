@@ -11,6 +11,7 @@
 
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
+#include "board/visionbox/journal_writer.h"
 #include "board/visionbox/page_access.h"
 #include "board/visionbox/page_errands.h"
 #include "board/visionbox/page_gallery.h"
@@ -42,6 +43,7 @@ class PageDesk final : public drivers::PageHandler {
     PictureTap* tap = nullptr;
     const core::Snapshot<OverlaySnapshot>* marks = nullptr;
     const hal::Clock* clock = nullptr;  ///< that stamps fields
+    JournalWriter* journal = nullptr;   ///< null: none is kept
     /// Asks for a recording, its number; empty: there is no recorder.
     std::function<std::uint32_t()> request_recording;
     std::function<RecordAnswer(std::uint32_t)> record_answer;
@@ -97,7 +99,7 @@ class PageDesk final : public drivers::PageHandler {
   [[nodiscard]] Answer recordings() const;
   [[nodiscard]] Answer recording(const Request& request) const;
   [[nodiscard]] Answer settings(const Request& request) const;
-  [[nodiscard]] Answer change_settings(const Call& call, const Json& body, bool save);
+  [[nodiscard]] Answer change_settings(const Request& request, const Call& call, const Json& body);
 
   [[nodiscard]] Json session_json(const std::string& cookie, MonotonicTime now);
   [[nodiscard]] Json operator_json(const std::string& cookie, MonotonicTime now);

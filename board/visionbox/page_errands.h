@@ -50,6 +50,9 @@ class PageErrands {
   /// The same where nobody waits for the answer; false: there is no room.
   [[nodiscard]] bool submit(const decltype(core::Event::content)& content);
 
+  /// Of the event that is handed over next.
+  [[nodiscard]] std::int64_t next_id() const { return next_id_; }
+
   [[nodiscard]] Answer record(const Call& call);
 
   /// What somebody has to be warned of before he starts.

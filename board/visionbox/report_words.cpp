@@ -38,6 +38,14 @@ std::string link_text(const BoxReport& report) {
   return text;
 }
 
+std::string journal_text(const JournalReport& journal) {
+  std::string text = journal.file + ", " + std::string(name_of(journal.state)) + ", safe to row " +
+                     std::to_string(journal.safe);
+  text += journal.waiting > 0 ? ", " + std::to_string(journal.waiting) + " waiting" : "";
+  text += journal.lost > 0 ? ", " + std::to_string(journal.lost) + " lost" : "";
+  return text + (journal.trouble.empty() ? "" : ": " + journal.trouble);
+}
+
 std::string pairs_text(const PairsReport& pairs) {
   if (pairs.file.empty()) {
     return {};

@@ -20,6 +20,7 @@ namespace tubesight::board {
 [[nodiscard]] std::string link_text(const BoxReport& report);
 
 /// Empty: none are written.
+[[nodiscard]] std::string journal_text(const JournalReport& journal);
 [[nodiscard]] std::string pairs_text(const PairsReport& pairs);
 
 [[nodiscard]] bool there_is_recorder(const BoxReport& report);

@@ -123,6 +123,11 @@ std::vector<SelfTestRow> self_test(const BoxReport& report) {
                   there_is_link(report) ? good_if(report.link.open) : Verdict::kAbsent,
                   link_text(report)});
   rows.push_back(disk_row(report));
+  if (!report.journal.file.empty()) {
+    rows.push_back({SelfTestBit::kJournal, "journal",
+                    good_if(report.journal.state == JournalReport::State::kWriting),
+                    journal_text(report.journal)});
+  }
   if (!report.pairs.file.empty()) {
     rows.push_back({SelfTestBit::kPairs, "pairs", good_if(report.pairs.trouble.empty()),
                     pairs_text(report.pairs)});

@@ -10,7 +10,7 @@ using Verdict = SelfTestRow::Verdict;
 
 constexpr MonotonicTime kLookEvery = std::chrono::seconds(1);
 constexpr std::int32_t kAllBits =
-    (2 << static_cast<std::int32_t>(drivers::SelfTestBit::kWatchdog)) - 1;
+    (2 << static_cast<std::int32_t>(drivers::SelfTestBit::kJournal)) - 1;
 
 bool pattern_is_to_come(const BoxReport& report) {
   return report.pattern_wanted && report.tracking.sighting.liveness == core::Liveness::kUnknown;

@@ -3,7 +3,9 @@
 #include <random>
 #include <utility>
 
+#include "board/box/version.h"
 #include "board/visionbox/camera_world.h"
+#include "board/visionbox/journal_store.h"
 #include "board/visionbox/link_identity.h"
 #include "board/visionbox/played_world.h"
 #include "core/base/assert.h"
@@ -82,6 +84,29 @@ hal::OperatorStation& station_of(JoinedStation* joined, drivers::SocketStation& 
   return joined != nullptr ? static_cast<hal::OperatorStation&>(*joined) : alone;
 }
 
+/// Null: no journal is kept.
+std::unique_ptr<JournalDesk> make_journal_desk(const BoxSettings& settings) {
+  const core::CameraSettings& camera = settings.told().camera;
+  return settings.journal.wanted()
+             ? std::make_unique<JournalDesk>(camera.width_px, camera.height_px)
+             : nullptr;
+}
+
+std::unique_ptr<JournalWriter> make_journal_writer(JournalDesk* desk, const BoxSettings& settings,
+                                                   const hal::Clock& fields,
+                                                   const VisionBox::Tell& tell) {
+  if (desk == nullptr) {
+    return nullptr;
+  }
+  const drivers::SessionFile& session = settings.session;
+  return std::make_unique<JournalWriter>(
+      *desk, fields, settings.journal.file,
+      JournalFrame{kernel_boot_id(), std::string(program_version()), session.camera_quality.id,
+                   session.tool_quality.id, session.base_quality.id,
+                   settings_digest(settings.page.file)},
+      make_journal_parts(settings.journal), tell);
+}
+
 }  // namespace
 
 VisionBox::VisionBox(const BoxSettings& settings, Tell tell, const std::string& origin)
@@ -100,13 +125,15 @@ VisionBox::VisionBox(const BoxSettings& settings, Tell tell, const std::string& 
       silent_link_(settings.lamp.silent_link),
       pose_handover_(poses_, settings.told().camera.width_px, settings.told().camera.height_px),
       pairs_writer_(make_pairs_writer(pair_desk_, settings, tell_)),
+      journal_desk_(make_journal_desk(settings)),
+      journal_writer_(make_journal_writer(journal_desk_.get(), settings, source_.clock(), tell_)),
       recorder_(make_recorder(settings)),
       writer_(make_writer(recorder_.get(), settings, origin, tell_)),
       loop_(session_, ports(),
             {&pose_handover_, nullptr, page_ == nullptr ? nullptr : &page_->marks, false,
              recorder_.get(), lamp_policy(settings.lamp),
              pairs_writer_ == nullptr ? nullptr : &pair_desk_,
-             page_ == nullptr ? nullptr : &page_->tap}),
+             page_ == nullptr ? nullptr : &page_->tap, journal_desk_.get()}),
       tracking_(loop_, source_, {kept_link_.get(), world_->lamp(), pairs_writer_.get()},
                 settings.real_time) {}
 
@@ -143,6 +170,9 @@ Result<void> VisionBox::start_without_tracking() {
   if (pairs_writer_ != nullptr) {
     pairs_writer_->start();
   }
+  if (journal_writer_ != nullptr) {
+    journal_writer_->start();
+  }
   if (writer_ != nullptr) {
     writer_->start();
   }
@@ -176,6 +206,9 @@ void VisionBox::stop() {
   if (pairs_writer_ != nullptr) {
     pairs_writer_->stop();
   }
+  if (journal_writer_ != nullptr) {
+    journal_writer_->stop();
+  }
   if (writer_ != nullptr) {
     recorder_->flush();
     writer_->stop();
@@ -208,6 +241,7 @@ PageDesk::Box VisionBox::page_box() {
   box.tap = &page_->tap;
   box.marks = &page_->marks;
   box.clock = &source_.clock();
+  box.journal = journal_writer_.get();
   if (records()) {
     box.request_recording = [this] { return request_recording(); };
     box.record_answer = [this](std::uint32_t number) { return record_answer(number); };
@@ -221,9 +255,11 @@ Beats VisionBox::beats() const {
           lamp == nullptr ? -1 : lamp->rounds(), -1};
 }
 
-void VisionBox::tell_robot(const drivers::LinkSelfTest& self_test) {
+void VisionBox::tell_robot(const drivers::LinkSelfTest& self_test,
+                           const drivers::LinkJournal& journal) {
   if (kept_link_ != nullptr) {
     kept_link_->set_self_test(self_test);
+    kept_link_->set_journal(journal);
   }
 }
 
@@ -245,6 +281,7 @@ BoxReport VisionBox::report() const {
   report.link = kept_link_ == nullptr ? LinkReport{} : kept_link_->report();
   report.recorder = writer_ == nullptr ? RecorderReport{} : writer_->report();
   report.pairs = pairs_writer_ == nullptr ? PairsReport{} : pairs_writer_->report();
+  report.journal = journal_writer_ == nullptr ? JournalReport{} : journal_writer_->report();
   if (zones_ != nullptr) {
     report.zones = zones_->places();
     report.zones_known = zones_->ready();

@@ -7,6 +7,7 @@
 
 #include "board/box/box_loop.h"
 #include "board/box/event_recorder.h"
+#include "board/box/journal_desk.h"
 #include "board/box/pair_desk.h"
 #include "board/box/picture_tap.h"
 #include "board/box/pose_handover.h"
@@ -14,6 +15,7 @@
 #include "board/visionbox/box_report.h"
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/joined_station.h"
+#include "board/visionbox/journal_writer.h"
 #include "board/visionbox/kept_link.h"
 #include "board/visionbox/life_signs.h"
 #include "board/visionbox/page_desk.h"
@@ -33,7 +35,8 @@ namespace tubesight::board {
 /// All objects of the box and how they hang together; the only place that knows.
 ///
 /// Which threads there are: the tracking thread (real time), that of the source, that of poses,
-/// those of recordings and of pairs, and the caller's. What crosses between them does so through
+/// those of recordings, of pairs and of the
+/// journal, and the caller's. What crosses between them does so through
 /// queues and snapshots that nobody waits for. Some 4 MB, and the recorder's memory: heap.
 class VisionBox {
  public:
@@ -56,8 +59,9 @@ class VisionBox {
   /// Judges no field, and so vouches for nothing, whatever comes. Before start().
   void judge_nothing() { tracking_.judge_nothing(); }
 
-  /// What the robot reads of the box's test of itself. Of the thread that starts the box.
-  void tell_robot(const drivers::LinkSelfTest& self_test);
+  /// What the robot reads of the box's test of itself and of its journal. Of the thread that starts
+  /// the box.
+  void tell_robot(const drivers::LinkSelfTest& self_test, const drivers::LinkJournal& journal);
 
   /// Stops everything; the lamp goes dark.
   void stop();
@@ -79,6 +83,9 @@ class VisionBox {
   }
   /// Whether there is a recorder; the two above need one.
   [[nodiscard]] bool records() const { return recorder_ != nullptr; }
+
+  /// Null: none is kept.
+  [[nodiscard]] JournalWriter* journal() { return journal_writer_.get(); }
 
   [[nodiscard]] drivers::SocketStation& station() { return socket_station_; }
   /// What the page has to do with the box; there is a page.
@@ -120,6 +127,9 @@ class VisionBox {
 
   PairDesk pair_desk_;
   std::unique_ptr<PairsWriter> pairs_writer_;  ///< null: no pairs are written
+
+  std::unique_ptr<JournalDesk> journal_desk_;      ///< null: no journal is kept
+  std::unique_ptr<JournalWriter> journal_writer_;  ///< null: the same
 
   std::unique_ptr<EventRecorder> recorder_;  ///< null: nothing is recorded
   std::unique_ptr<RecordingWriter> writer_;

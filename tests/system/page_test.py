@@ -8,6 +8,7 @@ import http.client
 import json
 import pathlib
 import ssl
+import sqlite3
 import struct
 import subprocess
 import sys
@@ -45,7 +46,7 @@ class Alone(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.box = Box(cls, BOX).start(cls)
+        cls.box = Box(cls, BOX, '[journal]\nfile = "J.db"\n').start(cls)
 
     @classmethod
     def addCleanup(cls, function, *arguments):  # of the class, as one box serves all cases
@@ -146,6 +147,7 @@ class Alone(unittest.TestCase):
         self.assertTrue(told["refusal"] and told["words"] and told["advice"], told)
         status, told = browser.ask("POST", "/api/start", {})
         self.assertEqual((status, told), (200, {"taken": True}))
+        self.assertEqual(self.journalled("start", "by=Ann")[0], "taken")
         sighting = self.wait_for(browser, lambda now: now["state"] == "tracking" and now.get("tool"))
         tool = sighting["tool"]
         status, named = browser.ask("POST", "/api/pick", {
@@ -181,6 +183,19 @@ class Alone(unittest.TestCase):
         self.assertLessEqual(sighting["time_s"], then["now_s"])
         self.assertLess(first["now_s"], then["now_s"])
         self.assertNotIn("boot", then["box"])  # nobody counts them here
+
+    def journalled(self, kind, words):
+        """Waits for a row of the journal of this kind with these words in its detail."""
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            database = sqlite3.connect(f"file:{self.box.folder}/J.db?mode=ro", uri=True)
+            rows = database.execute("SELECT verdict, detail FROM journal WHERE kind = ?", (kind,)).fetchall()
+            database.close()
+            found = [row for row in rows if words in row[1]]
+            if found:
+                return found[-1]
+            time.sleep(0.05)
+        raise AssertionError((kind, words, rows))
 
     def wait_for(self, browser, condition):
         deadline, after = time.monotonic() + 20, -1
@@ -227,6 +242,7 @@ class Alone(unittest.TestCase):
         self.assertTrue(told["saved"], told)
         self.assertEqual(pathlib.Path(told["backup"]).read_text(), now["text"])
         self.assertEqual(self.browser.ask("GET", "/api/backup")[1].decode(), now["text"] + "# tried\n")
+        self.journalled("setting", "what=saved by=")
 
     def test_the_rest_answers(self):
         for path in ("/api/sheet", "/api/visits", "/api/disagreements", "/api/recordings"):

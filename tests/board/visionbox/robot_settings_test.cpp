@@ -9,6 +9,26 @@
 namespace tubesight::board {
 namespace {
 
+TEST_F(BoxSettingsTest, WhereTheJournalGoesIsRead) {
+  ASSERT_TRUE(load(kSource));
+  EXPECT_FALSE(box_->journal.wanted());
+  ASSERT_TRUE(load(std::string(kSource) + "[journal]\nfile = \"kept/J.db\"\n"))
+      << messages_.front();
+  EXPECT_EQ(box_->journal.file, folder_.path("kept/J.db"));
+  EXPECT_EQ(box_->journal.key, folder_.path("kept/J.db.key"));
+  EXPECT_EQ(box_->journal.pictures, 2000);
+  ASSERT_TRUE(
+      load(std::string(kSource) + "[journal]\nfile = \"J.db\"\nkey = \"k\"\npictures = 0\n"));
+  EXPECT_EQ(box_->journal.key, folder_.path("k"));
+
+  EXPECT_FALSE(load(std::string(kSource) + "[journal]\n"));
+  EXPECT_FALSE(load(std::string(kSource) + "[journal]\nfile = \".\"\n"));
+  EXPECT_TRUE(told("file: '.', expected the path of a file, there or not"));
+  EXPECT_FALSE(load(std::string(kSource) + "[journal]\nfile = \"J.db\"\nkey = \"J.db\"\n"));
+  EXPECT_TRUE(told("key: 'J.db' is the journal's own file, expected another"));
+  EXPECT_FALSE(load(std::string(kSource) + "[journal]\nfile = \"J.db\"\nrows = 3\n"));
+}
+
 TEST_F(BoxSettingsTest, WhereGoPairsIsRead) {
   ASSERT_TRUE(load(kSource));
   EXPECT_FALSE(box_->pairs.wanted());

@@ -55,7 +55,7 @@ TEST_F(SelfTestWatchTest, FinishesAtOnceWhereNothingIsBad) {
   using enum drivers::SelfTestBit;
   EXPECT_EQ(watch_.told().absent, bit(kIdentity) | bit(kLamp) | bit(kPattern) | bit(kLink) |
                                       bit(kDisk) | bit(kPairs) | bit(kPriority) | bit(kMemory) |
-                                      bit(kWatchdog));
+                                      bit(kWatchdog) | bit(kJournal));
   EXPECT_EQ(watch_.told().boot, 17);
   EXPECT_EQ(watch_.told().start, 2);
 }
