@@ -5,6 +5,7 @@
 
 #include "board/bench/output/output_paths.h"
 #include "board/bench/output/text_output.h"
+#include "board/bench/reconcile/journal_seal.h"
 #include "drivers/files/atomic_file.h"
 #include "drivers/journal/journal_check.h"
 #include "drivers/journal/journal_copy.h"
@@ -17,10 +18,6 @@ namespace {
 ExitStatus refuse(const std::string& message) {
   tell(message);
   return ExitStatus::kWrongInput;
-}
-
-std::string counted(std::int64_t number, const std::string& what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
 /// Who signed, and how far.
@@ -114,7 +111,7 @@ ExitStatus run_export(const JournalOptions& options) {
 
 ExitStatus run_copy(const JournalOptions& options) {
   std::string message;
-  const auto copied = drivers::copy_journal(options.journal, options.copy, message);
+  const auto copied = drivers::copy_journal(options.journal, options.other, message);
   if (copied) {
     return ExitStatus::kDone;
   }
@@ -126,14 +123,25 @@ ExitStatus run_copy(const JournalOptions& options) {
 
 ExitStatus run_journal(const JournalOptions& options) {
   const bool copies = options.action == "copy";
-  if (copies == options.copy.empty()) {
-    return refuse(copies
-                      ? "tubesight: journal: TO.db is missing, expected copy JOURNAL TO.db"
-                      : "tubesight: journal: '" + options.copy +
+  const bool reconciles = options.action == "reconcile";
+  if ((copies || reconciles) == options.other.empty()) {
+    return refuse(copies ? "tubesight: journal: TO.db is missing, expected copy JOURNAL TO.db"
+                  : reconciles
+                      ? "tubesight: journal: the cold leg's journal is missing, expected "
+                        "reconcile HOT.db COLD.db"
+                      : "tubesight: journal: '" + options.other +
                             "' is one argument too many, expected " + options.action + " JOURNAL");
   }
   if (options.action == "check") {
     return run_check(options);
+  }
+  if (reconciles) {
+    ReconcileOptions both = options.reconcile;
+    both.hot = options.journal;
+    both.cold = options.other;
+    both.hot_key = options.key;
+    both.csv = options.csv;
+    return run_reconcile(both);
   }
   return copies ? run_copy(options) : run_export(options);
 }

@@ -10,9 +10,17 @@ namespace {
 /// Longest word of a job; more is another file.
 constexpr std::size_t kLongestWord = 40;
 
+/// Fit for a terminal and for a cell of a table, as it comes out again.
+bool is_one_word(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), [](char letter) {
+    return static_cast<unsigned char>(letter) < 0x21 || letter == 0x7f || letter == ',' ||
+           letter == '"';
+  });
+}
+
 bool take_job(const std::vector<std::string>& cells, Job& job, std::string& why) {
   job.kind = cells[0];
-  if (job.kind.empty() || job.kind.size() > kLongestWord) {
+  if (job.kind.empty() || job.kind.size() > kLongestWord || !is_one_word(job.kind)) {
     why = "job: " + drivers::in_quotes(cells[0]) + ", expected a word such as plug";
     return false;
   }

@@ -20,13 +20,17 @@ JobFinding finding_of(const Evidence& evidence, const core::TubeAddress& tube, U
       if (!in_time) {
         return JobFinding::kNotVouched;
       }
-      return evidence.tube == tube ? JobFinding::kVouched : JobFinding::kWrongTube;
+      if (evidence.tube != tube) {
+        return JobFinding::kWrongTube;
+      }
+      return evidence.trusted ? JobFinding::kVouched : JobFinding::kNotVouched;
     case Evidence::Kind::kContradicted:
       // However long ago: nobody has said since that it was right after all.
       if (evidence.claimed == tube) {
         return JobFinding::kContradicted;
       }
-      return in_time && evidence.tube != tube ? JobFinding::kWrongTube : JobFinding::kNotVouched;
+      return in_time && evidence.tube_known && evidence.tube != tube ? JobFinding::kWrongTube
+                                                                     : JobFinding::kNotVouched;
     case Evidence::Kind::kBroken:
     case Evidence::Kind::kUnknown: break;
   }
@@ -128,7 +132,7 @@ JudgedJob judge_job(const Job& job, const LegRecord& leg, std::chrono::milliseco
     if (first || is_wrong(found) || judged.finding == JobFinding::kVouched) {
       judged.finding = found;
       judged.row = evidence.row;
-      const bool other = is_wrong(found) && evidence.tube != job.tube;
+      const bool other = is_wrong(found) && evidence.tube_known && evidence.tube != job.tube;
       judged.seen = other ? std::optional(evidence.tube) : std::nullopt;
     }
     first = false;

@@ -28,6 +28,8 @@ struct Evidence {
   UtcTime last;                        ///< of them; the same where there was one
   std::chrono::milliseconds doubt{0};  ///< by which the wall clock may have been off
   std::int64_t row = 0;                ///< of the journal
+  bool trusted = true;     ///< false: it accuses, and vouches for nothing (no signature covers it)
+  bool tube_known = true;  ///< false: of a contradiction that names no tube, `tube` says nothing
 };
 
 /// How a leg's sheet names the tube whose other end the other sheet has.
@@ -53,7 +55,7 @@ enum class JobFinding : std::uint8_t {
   kVouched,       ///< at its instant the box vouched for that tube-end
   kWrongTube,     ///< then it vouched for another one
   kContradicted,  ///< the claim of that tube had just been contradicted
-  kNotVouched,    ///< the journal does not say where the tool was
+  kNotVouched,    ///< the journal does not say where the tool was, or is not to be trusted
   kNotDone,       ///< no time is told
 };
 
