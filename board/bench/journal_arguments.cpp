@@ -50,6 +50,12 @@ CLI::App* add_journal(CLI::App& app, JournalOptions& options) {
                    "vouched for, s; default 10")
       ->option_text("S")
       ->check(number_between(0.0, 3600.0));
+  journal
+      ->add_option("--clock-doubt", options.reconcile.clock_doubt_s,
+                   "With reconcile: how far a box's wall clock may have been off where its journal "
+                   "does not know, s; without it such rows close nothing")
+      ->option_text("S")
+      ->check(number_between(0.0, 3600.0));
   journal->add_flag("--accept-unsigned", options.reconcile.accept_unsigned,
                     "With reconcile: rows that no signature covers close jobs, too");
   journal->add_flag("--accept-broken", options.reconcile.accept_broken,

@@ -68,8 +68,8 @@ _tubesight() {
       taking=""
       ;;
     journal)
-      options="-h --help -q --quiet -v --verbose"
-      taking="--key --at-least --csv --jsonl"
+      options="-h --help -q --quiet -v --verbose --accept-unsigned --accept-broken"
+      taking="--key --second-key --at-least --csv --jsonl --jobs --mirrored --hold --clock-doubt"
       ;;
     *) return ;;
   esac
@@ -90,7 +90,7 @@ _tubesight() {
     pose--edge) _tubesight_words step mid-level moment && return ;;
     replay--overlay) _tubesight_files .y4m .mp4 .mkv .mov && return ;;
     replay--summary) _tubesight_files .json && return ;;
-    journal--key) _tubesight_files .pub && return ;;
+    journal--key | journal--second-key) _tubesight_files .pub && return ;;
     journal--jsonl) _tubesight_files .jsonl && return ;;
     pose--overlay | look--overlay | calibrate--picture | budget--plot) _tubesight_files .png && return ;;
     replay--fields | replay--centers | replay--poses | replay--pairs | replay--replies | pose--csv | pose--covariance | look--csv | \
@@ -98,7 +98,7 @@ _tubesight() {
       calibrate--residuals)
       _tubesight_files .csv && return
       ;;
-    journal--csv) _tubesight_files .csv && return ;;
+    journal--csv | journal--jobs) _tubesight_files .csv && return ;;
     campaign--out) _tubesight_files .toml .csv && return ;;
     calibrate--export) _tubesight_files .yaml && return ;;
     calibrate--out | calibrate--sheet | calibrate--base | calibrate--arm) _tubesight_files .toml && return ;;
@@ -131,7 +131,7 @@ _tubesight() {
         *) _tubesight_files .toml ;;
       esac
       ;;
-    journal0) _tubesight_words check export copy ;;
+    journal0) _tubesight_words check export copy reconcile ;;
     journal*) _tubesight_files .db ;;
     new0 | replay0 | pose0 | budget0 | simulate0) _tubesight_files .toml ;;
     replay1) _tubesight_files .y4m .y4m.xz .mp4 .mkv .mov .avi ;;

@@ -184,7 +184,8 @@ class Words(Folder):
             "campaign": [(2, ["campaign"]), (2, ["campaign", "--merge", "none.csv"])],
             "simulate": [(2, ["simulate", none, "--out", "x"])],
             "devices": [(0, ["devices"])],
-            "journal": [(2, ["journal", "check", "none.db"]), (2, ["journal", "copy", "none.db"])],
+            "journal": [(2, ["journal", "check", "none.db"]), (2, ["journal", "copy", "none.db"]),
+                        (2, ["journal", "reconcile", "none.db", "other.db", "--jobs", "none.csv"])],
         }
         self.assertEqual(sorted(table), sorted(COMMANDS))
         (self.folder / "a").mkdir()

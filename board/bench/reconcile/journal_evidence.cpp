@@ -79,10 +79,12 @@ void JournalEvidence::add(const JournalEntry& entry) {
   noted.boots = noted_.empty() || entry.boot_id != boot_id_;
   boot_id_ = entry.boot_id;
   const auto made = wall_time(entry, entry.monotonic_us);
-  noted.time_known = made.has_value() && entry.wall_doubt_us.has_value();
+  const std::optional<milliseconds> told =
+      entry.wall_doubt_us ? std::optional(rounded_up(*entry.wall_doubt_us)) : assumed_doubt_;
+  noted.time_known = made.has_value() && told.has_value();
   if (noted.time_known) {
     // A millisecond more: what is finer was cut off.
-    const milliseconds doubt = rounded_up(*entry.wall_doubt_us) + milliseconds(1);
+    const milliseconds doubt = *told + milliseconds(1);
     noted.earliest = *made - doubt;
     noted.latest = *made + doubt;
   }

@@ -24,6 +24,11 @@ namespace tubesight::board {
 /// of: a row of several claims is written when the last of them came.
 class JournalEvidence {
  public:
+  /// `assumed_doubt`: by which the wall clock may have been off where a row does not know it;
+  /// empty: nobody knows.
+  explicit JournalEvidence(std::optional<std::chrono::milliseconds> assumed_doubt = {})
+      : assumed_doubt_(assumed_doubt) {}
+
   void add(const drivers::JournalEntry& entry);
 
   /// All of it, once. Rows behind `trusted_through` accuse and do not vouch; 0: none vouches.
@@ -45,6 +50,7 @@ class JournalEvidence {
   void bound_unknown_times();
   static void set_times(Noted& noted);
 
+  std::optional<std::chrono::milliseconds> assumed_doubt_;
   std::vector<Noted> noted_;
   std::string boot_id_;
 };

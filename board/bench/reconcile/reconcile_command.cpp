@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -49,7 +50,12 @@ bool read_leg(const std::string& path, const std::string& key, const ReconcileOp
   }
   leg.journal = std::move(*sealed);
   drivers::JournalReader reader;
-  JournalEvidence evidence;
+  std::optional<std::chrono::milliseconds> assumed;
+  if (options.clock_doubt_s) {
+    assumed = std::chrono::milliseconds(
+        static_cast<std::int64_t>(std::ceil(1000.0 * *options.clock_doubt_s)));
+  }
+  JournalEvidence evidence(assumed);
   auto read = reader.open(path);
   if (read) {
     // What a box has appended since the check was not checked.

@@ -18,8 +18,9 @@ struct ReconcileOptions {
   std::string csv;                           ///< empty: not wanted
   std::optional<std::int32_t> mirrored_sum;  ///< LegNumbering's, of the cold leg
   double hold_s = 10.0;  ///< how long behind its last confirmation a tube-end is vouched for
-  bool accept_unsigned = false;  ///< rows that no signature covers vouch, too
-  bool accept_broken = false;    ///< so do journals that are not what was written
+  std::optional<double> clock_doubt_s;  ///< of a wall clock whose doubt a row does not know
+  bool accept_unsigned = false;         ///< rows that no signature covers vouch, too
+  bool accept_broken = false;           ///< so do journals that are not what was written
 };
 
 /// Puts both ends of each tube together and tells what is wrong or open, the worst first. kDone:
