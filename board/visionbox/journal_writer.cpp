@@ -219,6 +219,11 @@ bool JournalWriter::open() {
     tell_(parts_.store->news());
   }
   open_ = true;
+  {
+    // Of a journal that was begun anew, as the one before is damaged, it counts anew.
+    const std::lock_guard lock(mutex_);
+    report_.safe = parts_.store->journal().last_safe();
+  }
   if (!std::exchange(compared_, true)) {
     compare_settings();
   }
@@ -260,13 +265,12 @@ bool JournalWriter::write_waiting() {
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(rows.size()));
   unsigned_since_ = unsigned_since_ > MonotonicTime{0} ? unsigned_since_ : monotonic_now();
   pause_ = MonotonicTime{0};
-  bool stood = false;
   {
     const std::lock_guard lock(mutex_);
-    stood = !report_.trouble.empty() && report_.safe > 0;
     report_.trouble.clear();
+    report_.safe = *written;
   }
-  if (stood) {
+  if (std::exchange(failed_, false)) {
     tell_("the journal goes on");
   }
   tell_lost();
@@ -276,6 +280,7 @@ bool JournalWriter::write_waiting() {
 void JournalWriter::fail(const std::string& why) {
   parts_.store->close();
   open_ = false;
+  failed_ = true;
   pause_ = std::clamp(2 * pause_, kShortestPause, kLongestPause);
   next_try_ = monotonic_now() + pause_;
   bool news = false;
@@ -291,7 +296,6 @@ void JournalWriter::fail(const std::string& why) {
 
 void JournalWriter::publish() {
   const std::lock_guard lock(mutex_);
-  report_.safe = std::max(report_.safe, parts_.store->journal().last_safe());
   report_.waiting = static_cast<std::int64_t>(waiting_.size());
   report_.state = open_ && report_.trouble.empty() ? JournalReport::State::kWriting
                                                    : JournalReport::State::kStanding;

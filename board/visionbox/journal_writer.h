@@ -148,6 +148,7 @@ class JournalWriter {
   std::deque<JournalLine> waiting_;
   std::int64_t untold_ = 0;  ///< rows lost that no row tells of yet
   bool open_ = false;
+  bool failed_ = false;    ///< since the last row that was written
   bool compared_ = false;  ///< this start's settings with those of the one before
   MonotonicTime next_try_{0};
   MonotonicTime pause_{0};

@@ -149,6 +149,7 @@ TEST_F(JournalWriterTest, AStopIsARowAtOnceAndOneAtItsEnd) {
   EXPECT_FALSE(disk_.rows[1].picture);
   EXPECT_EQ(disk_.rows[1].digest, std::string(64, 'd'));
   EXPECT_GE(disk_.signed_times, 1);
+  EXPECT_TRUE(said_.empty()) << said_[0];
 }
 
 TEST_F(JournalWriterTest, AFullDiskLetsTheNumberStandStillAndKeepsTheRows) {
@@ -215,6 +216,23 @@ TEST_F(JournalWriterTest, AJournalThatCannotBeOpenedIsTriedAgain) {
 
   EXPECT_EQ(disk_.opened, 1);
   EXPECT_EQ(disk_.rows.size(), 1U);
+}
+
+TEST_F(JournalWriterTest, AJournalThatWasBegunAnewCountsAnew) {
+  for (int column = 0; column < 5; ++column) {
+    claim({40, column});
+  }
+  writer_->round(false);
+  EXPECT_EQ(writer_->report().safe, 5);
+  disk_.full = true;
+  claim({40, 60});
+  writer_->round(false);
+  EXPECT_EQ(writer_->report().safe, 5) << "it stands still";
+
+  disk_.rows.clear();  // it was damaged, and moved aside
+  recover();
+
+  EXPECT_EQ(writer_->report().safe, 1);
 }
 
 TEST_F(JournalWriterTest, WhoStartedIsNamedWhereThePageSaid) {
