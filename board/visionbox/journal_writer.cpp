@@ -5,10 +5,7 @@
 #include <span>
 #include <utility>
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/timex.h>
-#include <unistd.h>
 
 #include "board/visionbox/panic_dimmer.h"
 #include "board/visionbox/real_time.h"
@@ -85,8 +82,7 @@ void JournalWriter::start() {
   thread_ = std::thread([this] {
     use_signal_stack();
     name_this_thread("journal");
-    constexpr int kNice = 10;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
+    schedule_behind_others();
     run();
   });
 }

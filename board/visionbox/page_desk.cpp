@@ -4,10 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include "board/box/version.h"
 #include "board/visionbox/journal_store.h"
 #include "board/visionbox/page_body.h"
@@ -28,14 +24,13 @@ using drivers::PageRole;
 
 constexpr std::size_t kMostBody = std::size_t{64} * 1024;
 constexpr std::size_t kMostSettings = std::size_t{1024} * 1024;
-constexpr int kNice = 10;
 constexpr int kUsualQuality = 75;
 
 double seconds(MonotonicTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 void be_modest(const char* name) {
   name_this_thread(name);
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
+  schedule_behind_others();
 }
 
 }  // namespace

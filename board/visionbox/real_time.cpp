@@ -49,6 +49,11 @@ std::string schedule_before_others() {
   return status == 0 ? std::string() : std::strerror(errno);
 }
 
+void schedule_behind_others() {
+  constexpr int kNice = 10;
+  static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice));
+}
+
 void name_this_thread(const char* name) {
   static_cast<void>(pthread_setname_np(pthread_self(), name));
 }

@@ -23,6 +23,10 @@ struct RealTimeSettings {
 /// why not.
 [[nodiscard]] std::string schedule_before_others();
 
+/// Lets all threads of ordinary priority run before the calling one (nice 10), where the system
+/// allows it: for what may take its time.
+void schedule_behind_others();
+
 /// Names the calling thread, for whoever looks at the process; 15 bytes at most.
 void name_this_thread(const char* name);
 
