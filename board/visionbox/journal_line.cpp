@@ -15,25 +15,6 @@ std::string word(std::string_view key, std::int64_t value) {
   return detail_word(key, std::to_string(value));
 }
 
-std::string verdict_word(core::ClaimVerdict verdict) {
-  switch (verdict) {
-    case core::ClaimVerdict::kConfirmed: return "confirmed";
-    case core::ClaimVerdict::kContradicted: return "contradicted";
-    case core::ClaimVerdict::kUnknown: break;
-  }
-  return "unknown";
-}
-
-std::string verdict_word(core::PoseVerdict verdict) {
-  switch (verdict) {
-    case core::PoseVerdict::kConfirmed: return "confirmed";
-    case core::PoseVerdict::kContradicted: return "contradicted";
-    case core::PoseVerdict::kUnknown: return "unknown";
-    case core::PoseVerdict::kRefused: break;
-  }
-  return "refused";
-}
-
 hal::JournalSighting seen_of(const core::Sighting& sighting) {
   constexpr std::int32_t kQ8 = 256;
   hal::JournalSighting seen;
@@ -61,7 +42,7 @@ void tell_claim(const JournalEntry& entry, core::FieldTime shift, JournalLine& l
   line.kind = hal::JournalKind::kVerification;
   line.event_id = note.id;
   line.claimed = note.claim.claimed;
-  line.verdict = verdict_word(note.claim.verdict);
+  line.verdict = core::name_of(note.claim.verdict);
   if (note.claim.verdict == core::ClaimVerdict::kUnknown) {
     line.reason = core::name_of(note.claim.doubt);
   } else {
@@ -104,7 +85,7 @@ void tell_start(const JournalNote& note, const std::string& who, JournalLine& li
 void tell_pose(const JournalNote& note, JournalLine& line) {
   line.kind = hal::JournalKind::kPose;
   line.event_id = note.id;
-  line.verdict = verdict_word(note.pose.verdict);
+  line.verdict = core::name_of(note.pose.verdict);
   const core::PoseResult& pose = note.pose.pose;
   if (note.pose.verdict == core::PoseVerdict::kRefused) {
     line.reason = core::name_of(pose.reason);

@@ -35,15 +35,6 @@ std::string text_of(core::TubeAddress tube) {
   return std::to_string(tube.row) + "," + std::to_string(tube.column);
 }
 
-std::string_view name_of(core::ClaimVerdict verdict) {
-  switch (verdict) {
-    case core::ClaimVerdict::kConfirmed: return "confirmed";
-    case core::ClaimVerdict::kContradicted: return "contradicted";
-    case core::ClaimVerdict::kUnknown: break;
-  }
-  return "unknown";
-}
-
 void add_tool(const core::Sighting& sighting, Json& json) {
   Json tool = tube_at(sighting.tool, sighting.tool_px);
   tool["offset_mm"] = mm(sighting.offset_um_q8);
@@ -211,7 +202,7 @@ std::string claim_words(const core::ClaimReply& claim) {
 
 Json claim_json(const core::ClaimReply& claim) {
   Json json = address(claim.claimed);
-  json["verdict"] = name_of(claim.verdict);
+  json["verdict"] = core::name_of(claim.verdict);
   json["words"] = claim_words(claim);
   if (claim.verdict != core::ClaimVerdict::kUnknown) {
     json["tube"] = address(claim.tube);

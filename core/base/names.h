@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/base/field.h"
+#include "core/base/reply.h"
 #include "core/base/sighting.h"
 #include "core/base/words.h"
 
@@ -35,6 +36,27 @@ namespace tubesight::core {
     case Liveness::kUnknown: return "unknown";
     case Liveness::kProved: return "proved";
     case Liveness::kFailed: return "failed";
+  }
+  return "";
+}
+
+/// The word of a verdict in files: `confirmed`, `contradicted`, `unknown`.
+[[nodiscard]] constexpr std::string_view name_of(ClaimVerdict verdict) {
+  switch (verdict) {
+    case ClaimVerdict::kConfirmed: return "confirmed";
+    case ClaimVerdict::kContradicted: return "contradicted";
+    case ClaimVerdict::kUnknown: return "unknown";
+  }
+  return "";
+}
+
+/// The same of a pose's, which may also be `refused`.
+[[nodiscard]] constexpr std::string_view name_of(PoseVerdict verdict) {
+  switch (verdict) {
+    case PoseVerdict::kConfirmed: return "confirmed";
+    case PoseVerdict::kContradicted: return "contradicted";
+    case PoseVerdict::kUnknown: return "unknown";
+    case PoseVerdict::kRefused: return "refused";
   }
   return "";
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "core/base/names.h"
 #include "core/base/words.h"
 #include "drivers/files/decimal.h"
 
@@ -23,14 +24,13 @@ struct Answer {
 };
 
 Answer answer_of(const core::ClaimReply& claim) {
-  switch (claim.verdict) {
-    case core::ClaimVerdict::kConfirmed:
-      return {"claim", "confirmed", claim.tube, claim.claimed, claim.field, {}};
-    case core::ClaimVerdict::kContradicted:
-      return {"claim", "contradicted", claim.tube, claim.claimed, claim.field, {}};
-    case core::ClaimVerdict::kUnknown: break;
-  }
-  return {"claim", "unknown", {}, claim.claimed, claim.field, core::name_of(claim.doubt)};
+  const bool known = claim.verdict != core::ClaimVerdict::kUnknown;
+  return {"claim",
+          core::name_of(claim.verdict),
+          known ? std::optional(claim.tube) : std::nullopt,
+          claim.claimed,
+          claim.field,
+          known ? std::string_view() : core::name_of(claim.doubt)};
 }
 
 Answer answer_of(const core::StartReply& start) {
@@ -53,13 +53,15 @@ Answer answer_of(const core::PoseRequestReply& request) {
 }
 
 Answer answer_of(const core::PoseReply& pose) {
-  switch (pose.verdict) {
-    case core::PoseVerdict::kConfirmed: return {"pose", "confirmed", pose.tube, {}, -1, {}};
-    case core::PoseVerdict::kContradicted: return {"pose", "contradicted", pose.tube, {}, -1, {}};
-    case core::PoseVerdict::kUnknown: return {"pose", "unknown", {}, {}, -1, {}};
-    case core::PoseVerdict::kRefused: break;
-  }
-  return {"pose", "refused", {}, {}, -1, core::name_of(pose.pose.reason)};
+  const bool named = pose.verdict == core::PoseVerdict::kConfirmed ||
+                     pose.verdict == core::PoseVerdict::kContradicted;
+  const bool refused = pose.verdict == core::PoseVerdict::kRefused;
+  return {"pose",
+          core::name_of(pose.verdict),
+          named ? std::optional(pose.tube) : std::nullopt,
+          {},
+          -1,
+          refused ? core::name_of(pose.pose.reason) : std::string_view()};
 }
 
 Answer answer_of(const core::LampReply&) { return {}; }
