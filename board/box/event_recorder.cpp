@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
 #include "core/base/assert.h"
+#include "core/base/copy_lines.h"
 #include "core/base/reply.h"
 
 namespace tubesight::board {
@@ -146,11 +146,7 @@ void EventRecorder::keep(const core::session::Input& input) {
     return;
   }
   kept.field.pixels.lines = from.lines;
-  for (std::int32_t line = 0; line < from.lines; ++line) {
-    const auto width = static_cast<std::size_t>(from.width_px);
-    std::memcpy(to + static_cast<std::size_t>(line) * width,
-                from.pixels + static_cast<std::ptrdiff_t>(line) * from.stride_px, width);
-  }
+  core::copy_lines(from, to);
 }
 
 void EventRecorder::look_for_reasons(const Field& field, const core::session::Output& output) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/copy_lines.h"
+
 namespace tubesight::board {
 namespace {
 
@@ -13,13 +15,7 @@ void copy(const core::Field& from, JournalDesk::Picture& to) {
     to.field.status = core::FieldStatus::kDamaged;  // larger than was said
     return;
   }
-  for (std::int32_t line = 0; line < lines.lines; ++line) {
-    const std::uint8_t* const begin =
-        lines.pixels + static_cast<std::ptrdiff_t>(line) * lines.stride_px;
-    std::copy_n(begin, width, to.pixels.data() + static_cast<std::size_t>(line) * width);
-  }
-  to.field.pixels.pixels = to.pixels.data();
-  to.field.pixels.stride_px = lines.width_px;
+  to.field.pixels = core::copied_lines(lines, to.pixels.data());
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "board/box/overlay_snapshot.h"
+#include "core/base/copy_lines.h"
 #include "core/base/field.h"
 
 namespace tubesight::board {
@@ -51,7 +51,7 @@ class PictureTap {
     place.taken.field = field;
     place.taken.overlay = overlay;
     if (field.status == core::FieldStatus::kGood) {
-      copy(field.pixels, place);
+      place.taken.field.pixels = core::copied_lines(field.pixels, place.pixels.data());
     }
     pushed_.store(pushed + 1, std::memory_order_release);
   }
@@ -73,17 +73,6 @@ class PictureTap {
     Taken taken;
     std::vector<std::uint8_t> pixels;
   };
-
-  static void copy(const core::FieldView& lines, Place& place) {
-    const std::size_t width = static_cast<std::size_t>(lines.width_px);
-    for (std::int32_t line = 0; line < lines.lines; ++line) {
-      const std::uint8_t* const from =
-          lines.pixels + static_cast<std::ptrdiff_t>(line) * lines.stride_px;
-      std::copy_n(from, width, place.pixels.data() + static_cast<std::size_t>(line) * width);
-    }
-    place.taken.field.pixels.pixels = place.pixels.data();
-    place.taken.field.pixels.stride_px = lines.width_px;
-  }
 
   std::array<Place, kPlaces> places_;
   std::atomic<std::uint32_t> pushed_{0};

@@ -1,9 +1,9 @@
 #include "board/box/pose_handover.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "core/base/assert.h"
+#include "core/base/copy_lines.h"
 
 namespace tubesight::board {
 
@@ -43,13 +43,8 @@ void PoseHandover::copy_pixels(const core::Field& field, Slot& slot) const {
   const core::FieldView& from = field.pixels;
   TUBESIGHT_ASSERT(static_cast<std::size_t>(from.width_px) * static_cast<std::size_t>(from.lines) <=
                    slot.pixels.size());
-  for (std::int32_t line = 0; line < from.lines; ++line) {
-    std::copy_n(from.pixels + static_cast<std::ptrdiff_t>(line) * from.stride_px, from.width_px,
-                slot.pixels.begin() + static_cast<std::ptrdiff_t>(line) * from.width_px);
-  }
   slot.field = field;
-  slot.field.pixels.pixels = slot.pixels.data();
-  slot.field.pixels.stride_px = from.width_px;
+  slot.field.pixels = core::copied_lines(from, slot.pixels.data());
 }
 
 std::optional<core::Event> PoseHandover::take_result() {

@@ -7,6 +7,7 @@
 
 #include "board/visionbox/panic_dimmer.h"
 #include "core/base/assert.h"
+#include "core/base/copy_lines.h"
 
 namespace tubesight::board {
 namespace {
@@ -173,12 +174,7 @@ void PlayedSource::fill(const PlayedField& played, Shift& shift, Slot& slot) {
   next_sequence_ = slot.field.sequence + 1;
   const core::FieldView& from = played.field.pixels;
   if (from.pixels != nullptr) {
-    for (std::int32_t line = 0; line < from.lines; ++line) {
-      std::copy_n(from.pixels + static_cast<std::ptrdiff_t>(line) * from.stride_px, from.width_px,
-                  slot.pixels.begin() + static_cast<std::ptrdiff_t>(line) * from.width_px);
-    }
-    slot.field.pixels.pixels = slot.pixels.data();
-    slot.field.pixels.stride_px = from.width_px;
+    slot.field.pixels = core::copied_lines(from, slot.pixels.data());
   }
   slot.events = played.events;
   for (core::Event& event : slot.events) {
