@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "board/box/row_column_text.h"
 #include "board/box/version.h"
 #include "board/visionbox/control_protocol.h"
 #include "board/visionbox/report_words.h"
@@ -25,10 +26,6 @@ std::string decimal(std::int64_t numerator, std::int64_t denominator, std::int32
 
 /// 1/256 um, as millimetres.
 std::string mm_text(std::int64_t um_q8) { return decimal(um_q8, 256'000, 4); }
-
-std::string tube_text(core::TubeAddress tube) {
-  return std::to_string(tube.row) + "," + std::to_string(tube.column);
-}
 
 void add_source(JsonLine& line, const BoxReport& report) {
   line.open("source").add("kind", report.source_kind).add("state", name_of(report.source));
@@ -56,10 +53,10 @@ void add_sighting(JsonLine& line, const core::Sighting& sighting) {
   line.add("liveness", core::name_of(sighting.liveness));
   line.add("judged_fields", sighting.judged_fields).add("tubes_seen", sighting.tracked);
   if (sighting.primary_known) {
-    line.add("primary", tube_text(sighting.primary));
+    line.add("primary", row_column_text(sighting.primary));
   }
   if (sighting.tool_known) {
-    line.add("tube", tube_text(sighting.tool)).add("aligned", sighting.aligned);
+    line.add("tube", row_column_text(sighting.tool)).add("aligned", sighting.aligned);
     line.add_printed("offset_mm", mm_text(sighting.offset_um_q8));
   }
   if (sighting.axis_known) {
@@ -169,8 +166,9 @@ std::string sighting_text(const core::Sighting& sighting) {
     text += " (" + std::string(core::explain(sighting.reason)) + ")";
   }
   if (sighting.tool_known) {
-    text += ", under tube " + tube_text(sighting.tool) + ", " + mm_text(sighting.offset_um_q8) +
-            " mm off" + (sighting.aligned ? ", vouched for" : ", not vouched for");
+    text += ", under tube " + row_column_text(sighting.tool) + ", " +
+            mm_text(sighting.offset_um_q8) + " mm off" +
+            (sighting.aligned ? ", vouched for" : ", not vouched for");
   }
   return text;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "board/box/row_column_text.h"
 #include "board/box/start_text.h"
 #include "core/base/words.h"
 #include "drivers/files/decimal.h"
@@ -135,10 +136,6 @@ Content without_arguments(const Words& arguments, Content content) {
                            : Content(WrongRequest{"too many words, expected the command alone"});
 }
 
-std::string tube_text(core::TubeAddress tube) {
-  return std::to_string(tube.row) + "," + std::to_string(tube.column);
-}
-
 std::string answer_to(std::string_view command, const core::StartReply& reply) {
   const bool taken = reply.refusal == core::StartRefusal::kNone;
   JsonLine line = begin_answer(command, taken);
@@ -157,8 +154,8 @@ std::string answer_to(std::string_view command, const core::PickReply& reply) {
     line.add("error", core::name_of(reply.doubt));
     return line.add("text", core::explain(reply.doubt)).finish();
   }
-  line.add("tube", tube_text(reply.tube));
-  return line.add("text", "tube " + tube_text(reply.tube)).finish();
+  line.add("tube", row_column_text(reply.tube));
+  return line.add("text", "tube " + row_column_text(reply.tube)).finish();
 }
 
 std::string answer_to(std::string_view command, const core::LampReply& reply) {

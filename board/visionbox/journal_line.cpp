@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "board/box/row_column_text.h"
 #include "core/base/names.h"
 #include "core/base/words.h"
 
@@ -72,8 +73,7 @@ void tell_start(const JournalNote& note, const std::string& who, JournalLine& li
   line.detail = detail_word("by", !who.empty() ? who : robot ? "robot" : "control");
   std::string tubes;
   for (const core::StartPoint& point : note.start.tubes) {
-    tubes += (tubes.empty() ? "" : ";") + std::to_string(point.address.row) + "," +
-             std::to_string(point.address.column);
+    tubes += (tubes.empty() ? "" : ";") + row_column_text(point.address);
   }
   if (!note.start.tubes.empty()) {
     line.claimed = note.start.tubes[0].address;

@@ -8,6 +8,7 @@
 #include "board/visionbox/journal_store.h"
 #include "board/visionbox/page_body.h"
 #include "board/visionbox/page_lattice.h"
+#include "board/visionbox/page_numbers.h"
 #include "board/visionbox/page_recordings.h"
 #include "board/visionbox/page_settings_text.h"
 #include "board/visionbox/page_time.h"
@@ -25,8 +26,6 @@ using drivers::PageRole;
 constexpr std::size_t kMostBody = std::size_t{64} * 1024;
 constexpr std::size_t kMostSettings = std::size_t{1024} * 1024;
 constexpr int kUsualQuality = 75;
-
-double seconds(MonotonicTime time) { return static_cast<double>(time.count()) / 1e9; }
 
 void be_modest(const char* name) {
   name_this_thread(name);

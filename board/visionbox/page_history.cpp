@@ -4,19 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "board/visionbox/page_numbers.h"
 #include "core/tubesheet/tubesheet_setup.h"
 
 namespace tubesight::board {
-namespace {
-
-double seconds(core::FieldTime time) { return static_cast<double>(time.count()) / 1e9; }
-
-double mm(std::int64_t um_q8) { return static_cast<double>(um_q8) / 256'000.0; }
-
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
-
-}  // namespace
-
 void PageHistory::know_sheet(const core::TubesheetSettings& sheet) { sheet_ = sheet; }
 
 void PageHistory::take(const OverlaySnapshot& marks, const Picture& latest) {

@@ -4,7 +4,9 @@
 #include <numbers>
 
 #include "board/box/advice.h"
+#include "board/box/row_column_text.h"
 #include "board/box/start_text.h"
+#include "board/visionbox/page_numbers.h"
 #include "core/base/names.h"
 #include "core/base/words.h"
 #include "core/tubesheet/sheet_places.h"
@@ -12,16 +14,12 @@
 namespace tubesight::board {
 namespace {
 
-/// So many digits as files have, and no more: 12.345, not 12.345000000000001.
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+// As many digits as files have, and no more.
+double told_px(std::int32_t q16) { return rounded(static_cast<double>(q16) / 65'536.0, 1e3); }
+double told_mm(std::int64_t um_q8) { return rounded(mm(um_q8), 1e4); }
+double told_s(core::FieldTime time) { return rounded(seconds(time), 1e6); }
 
-double px(std::int32_t q16) { return rounded(static_cast<double>(q16) / 65'536.0, 1e3); }
-double mm(std::int64_t um_q8) { return rounded(static_cast<double>(um_q8) / 256'000.0, 1e4); }
-double seconds(core::FieldTime time) {
-  return rounded(static_cast<double>(time.count()) / 1e9, 1e6);
-}
-
-Json point(core::ImagePoint at) { return {{"u", px(at.u_q16)}, {"v", px(at.v_q16)}}; }
+Json point(core::ImagePoint at) { return {{"u", told_px(at.u_q16)}, {"v", told_px(at.v_q16)}}; }
 
 Json address(core::TubeAddress tube) { return {{"row", tube.row}, {"column", tube.column}}; }
 
@@ -31,15 +29,11 @@ Json tube_at(core::TubeAddress tube, core::ImagePoint at) {
   return made;
 }
 
-std::string text_of(core::TubeAddress tube) {
-  return std::to_string(tube.row) + "," + std::to_string(tube.column);
-}
-
 void add_tool(const core::Sighting& sighting, Json& json) {
   Json tool = tube_at(sighting.tool, sighting.tool_px);
-  tool["offset_mm"] = mm(sighting.offset_um_q8);
-  tool["dx_mm"] = mm(sighting.displacement_um_q8[0]);
-  tool["dy_mm"] = mm(sighting.displacement_um_q8[1]);
+  tool["offset_mm"] = told_mm(sighting.offset_um_q8);
+  tool["dx_mm"] = told_mm(sighting.displacement_um_q8[0]);
+  tool["dy_mm"] = told_mm(sighting.displacement_um_q8[1]);
   if (sighting.axis_known) {
     const double du = static_cast<double>(sighting.axis_px.u_q16) - sighting.tool_px.u_q16;
     const double dv = static_cast<double>(sighting.axis_px.v_q16) - sighting.tool_px.v_q16;
@@ -54,7 +48,7 @@ void add_place(const core::Sighting& sighting, Json& json) {
   }
   if (sighting.axis_known) {
     json["axis"] = point(sighting.axis_px);
-    json["height_mm"] = mm(sighting.height_um_q8);
+    json["height_mm"] = told_mm(sighting.height_um_q8);
   }
   if (sighting.tool_known) {
     add_tool(sighting, json);
@@ -63,7 +57,7 @@ void add_place(const core::Sighting& sighting, Json& json) {
     json["margin_sigma"] = rounded(sighting.margin_permyriad / 1e4, 1e4);
   }
   if (sighting.judged) {
-    json["residual_px"] = px(sighting.residual_px_q16);
+    json["residual_px"] = told_px(sighting.residual_px_q16);
   }
   if (sighting.velocity_known) {
     json["velocity"] = {{"x_mm_s", rounded(sighting.velocity_um_s[0] / 1e3, 1e3)},
@@ -74,16 +68,16 @@ void add_place(const core::Sighting& sighting, Json& json) {
 void add_tubes(const OverlaySnapshot& marks, Json& json) {
   Json tubes = Json::array();
   for (const core::TubeSighting& tube : marks.tubes) {
-    tubes.push_back({tube.address.row, tube.address.column, px(tube.center_px.u_q16),
-                     px(tube.center_px.v_q16), rounded(tube.quality_permyriad / 1e4, 1e4),
+    tubes.push_back({tube.address.row, tube.address.column, told_px(tube.center_px.u_q16),
+                     told_px(tube.center_px.v_q16), rounded(tube.quality_permyriad / 1e4, 1e4),
                      tube.plug ? 1 : 0, rounded(tube.contrast_q4 / 16.0, 16.0)});
   }
   json["tubes"] = std::move(tubes);
   if (!marks.estimates.empty()) {
     Json estimates = Json::array();
     for (const auto& tube : marks.estimates) {
-      estimates.push_back({tube.address.row, tube.address.column, px(tube.center_px.u_q16),
-                           px(tube.center_px.v_q16)});
+      estimates.push_back({tube.address.row, tube.address.column, told_px(tube.center_px.u_q16),
+                           told_px(tube.center_px.v_q16)});
     }
     json["estimates"] = std::move(estimates);
   }
@@ -169,8 +163,8 @@ Json sighting_json(const OverlaySnapshot& marks, const core::SessionSettings& to
   const core::Sighting& sighting = marks.sighting;
   Json json;
   json["field"] = marks.field;
-  json["time_s"] = seconds(sighting.time);
-  json["age_s"] = seconds(sighting.age);
+  json["time_s"] = told_s(sighting.time);
+  json["age_s"] = told_s(sighting.age);
   json["state"] = core::name_of(sighting.state);
   if (sighting.reason != core::Reason::kNone) {
     json["reason"] = core::name_of(sighting.reason);
@@ -190,11 +184,11 @@ Json sighting_json(const OverlaySnapshot& marks, const core::SessionSettings& to
 }
 
 std::string claim_words(const core::ClaimReply& claim) {
-  const std::string claimed = "the robot says tube " + text_of(claim.claimed);
+  const std::string claimed = "the robot says tube " + row_column_text(claim.claimed);
   switch (claim.verdict) {
     case core::ClaimVerdict::kConfirmed: return claimed + ", and the box vouches for it";
     case core::ClaimVerdict::kContradicted:
-      return claimed + ", and the box sees tube " + text_of(claim.tube);
+      return claimed + ", and the box sees tube " + row_column_text(claim.tube);
     case core::ClaimVerdict::kUnknown: break;
   }
   return claimed + ", and the box cannot tell: " + std::string(core::explain(claim.doubt));
