@@ -1,7 +1,6 @@
 #include "board/visionbox/page_settings_text.h"
 
 #include <memory>
-#include <span>
 
 #include "board/visionbox/box_settings.h"
 #include "board/visionbox/page_access.h"
@@ -43,14 +42,8 @@ drivers::Messages mistakes(const std::string& file, const std::string& text) {
 
 std::string write(const std::string& path, const std::string& text) {
   drivers::AtomicFile file;
-  auto outcome = file.open(path);
-  if (outcome) {
-    outcome = file.write(std::as_bytes(std::span<const char>(text)));
-  }
-  if (outcome) {
-    outcome = file.commit();
-  }
-  return outcome ? std::string() : file.message();
+  const bool written = file.open(path) && file.write(text) && file.commit_to_disk();
+  return written ? std::string() : file.message();
 }
 
 }  // namespace

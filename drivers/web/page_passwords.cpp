@@ -92,10 +92,10 @@ Result<void> PagePasswords::save(const std::string& path) {
   AtomicFile file;
   auto outcome = file.open(path);
   if (outcome) {
-    outcome = file.write(std::as_bytes(std::span<const char>(text)));
+    outcome = file.write(text);
   }
   if (outcome) {
-    outcome = file.commit();
+    outcome = file.commit_to_disk();
   }
   umask(before);
   if (!outcome) {
