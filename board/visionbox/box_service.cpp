@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "board/box/version.h"
-#include "board/visionbox/journal_store.h"
 
 namespace tubesight::board {
 namespace {
@@ -115,7 +114,7 @@ void BoxService::journal_boot(std::string_view what) {
     line.detail += " " + detail_word("boot", std::to_string(found_.boots.boot)) + " " +
                    detail_word("start", std::to_string(found_.boots.start));
   }
-  line.detail += " " + detail_word("settings", settings_digest(settings_->page.file));
+  line.detail += " " + detail_word("settings", box_.journal()->settings_digest());
   line.detail += " " + detail_word("golden", found_.golden.good ? "good" : "bad");
   box_.journal()->add(std::move(line));
 }

@@ -62,6 +62,13 @@ struct Upright {
   }
 };
 
+/// The first claim of a stop, and a loss.
+bool shows_picture(const JournalEntry& entry) {
+  const JournalNote::Kind kind = entry.note.kind;
+  return kind == JournalNote::Kind::kLoss ||
+         (kind == JournalNote::Kind::kClaim && entry.part == JournalEntry::Part::kFirst);
+}
+
 }  // namespace
 
 JournalWriter::JournalWriter(JournalDesk& desk, const hal::Clock& fields, std::string file,
@@ -129,45 +136,25 @@ void JournalWriter::take_notes(bool last) {
   const core::FieldTime shift = monotonic_now() - fields_->now();
   std::vector<JournalEntry> entries;
   JournalNote note;
-  const auto queue_all = [&](const std::string& picture) {
-    for (const JournalEntry& entry : entries) {
-      JournalLine line = line_of(entry, shift, who_is(entry.note));
-      const bool begins = entry.part == JournalEntry::Part::kFirst;
-      const bool shows = entry.note.kind == JournalNote::Kind::kClaim ||
-                         entry.note.kind == JournalNote::Kind::kLoss;
-      if (begins && shows && &entry == &entries.back()) {
-        line.picture = picture;
-      }
-      queue(std::move(line));
-    }
-    entries.clear();
-  };
   while (desk_->take_note(note)) {
-    std::string picture;
-    if (const JournalDesk::Picture* const seen = desk_->picture(note)) {
-      const core::FieldView& lines = seen->field.pixels;
-      const auto size =
-          static_cast<std::size_t>(lines.width_px) * static_cast<std::size_t>(lines.lines);
-      const std::string digest = parts_.digest(std::as_bytes(std::span(lines.pixels, size)));
-      if (digest.size() == note.digest.size()) {
-        std::copy(digest.begin(), digest.end(), note.digest.begin());
-      }
-      merger_.take(note, entries);
-      if (!entries.empty()) {
-        picture = parts_.compress(Upright(seen->field).view);
-      }
-      desk_->give_back(note);
-    } else {
-      merger_.take(note, entries);
+    const JournalDesk::Picture* const seen = desk_->picture(note);
+    if (seen != nullptr) {
+      put_digest(*seen, note);
     }
-    queue_all(picture);
+    merger_.take(note, entries);
+    std::string picture;
+    if (seen != nullptr && !entries.empty() && shows_picture(entries.back())) {
+      picture = parts_.compress(Upright(seen->field).view);
+    }
+    desk_->give_back(note);
+    queue_all(entries, shift, std::move(picture));
   }
   if (last) {
     merger_.end(entries);
   } else {
     merger_.look(fields_->now(), entries);
   }
-  queue_all({});
+  queue_all(entries, shift, {});
   std::vector<JournalLine> added;
   {
     const std::lock_guard lock(mutex_);
@@ -176,6 +163,29 @@ void JournalWriter::take_notes(bool last) {
   for (JournalLine& line : added) {
     queue(std::move(line));
   }
+}
+
+void JournalWriter::put_digest(const JournalDesk::Picture& picture, JournalNote& note) const {
+  const core::FieldView& lines = picture.field.pixels;
+  const auto size =
+      static_cast<std::size_t>(lines.width_px) * static_cast<std::size_t>(lines.lines);
+  const std::string digest = parts_.digest(std::as_bytes(std::span(lines.pixels, size)));
+  if (digest.size() == note.digest.size()) {
+    std::copy(digest.begin(), digest.end(), note.digest.begin());
+  }
+}
+
+/// Queues what a note has brought about; the picture is of the last, which is the note's own.
+void JournalWriter::queue_all(std::vector<JournalEntry>& entries, core::FieldTime shift,
+                              std::string picture) {
+  for (const JournalEntry& entry : entries) {
+    JournalLine line = line_of(entry, shift, who_is(entry.note));
+    if (&entry == &entries.back()) {
+      line.picture = std::move(picture);
+    }
+    queue(std::move(line));
+  }
+  entries.clear();
 }
 
 void JournalWriter::queue(JournalLine line) {

@@ -110,6 +110,9 @@ class JournalWriter {
   /// Who is behind an event of the operator's station that will be answered. The same.
   void name(std::int64_t event_id, const std::string& who);
 
+  /// Of the settings that the program was started with.
+  [[nodiscard]] const std::string& settings_digest() const { return frame_.settings; }
+
   /// Any thread but the tracking.
   [[nodiscard]] JournalReport report() const;
 
@@ -122,6 +125,8 @@ class JournalWriter {
 
   void run();
   void take_notes(bool last);
+  void put_digest(const JournalDesk::Picture& picture, JournalNote& note) const;
+  void queue_all(std::vector<JournalEntry>& entries, core::FieldTime shift, std::string picture);
   void queue(JournalLine line);
   void tell_lost();
   [[nodiscard]] bool write_waiting();

@@ -1,5 +1,6 @@
 // tubesightd keeps a journal: what its robot claimed, whatever ends the program.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
@@ -35,6 +36,10 @@ class KeepingBox {
     std::smatch found;
     return std::regex_search(status, found, std::regex(R"("safe":(\d+))")) ? std::stoll(found[1])
                                                                            : -1;
+  }
+  void start_again() { ASSERT_TRUE(daemon_.start_and_wait()) << daemon_.said(); }
+  void add_to_settings(const std::string& line) const {
+    daemon_.folder().write("box.toml", daemon_.folder().read("box.toml") + line);
   }
   /// Until it has a start and both claims, and a little longer.
   void wait_for_claims() const {
@@ -76,6 +81,11 @@ class KeepingBox {
     const std::string fraction = std::to_string(1000 + wall_us / 1000 % 1000);
     return std::string(written.data()) + "." + fraction.substr(1) + "Z";
   }
+  /// Of a box that was ended.
+  [[nodiscard]] std::int64_t safe_rows() const {
+    const std::string text = rows();
+    return std::count(text.begin(), text.end(), '\n');
+  }
   [[nodiscard]] std::string journal() const { return daemon_.folder().path("J.db"); }
   [[nodiscard]] std::string key() const { return daemon_.folder().path("J.db.key.pub"); }
   [[nodiscard]] const Daemon& daemon() const { return daemon_; }
@@ -110,6 +120,22 @@ TEST(BoxJournal, WhatWasToldSafeIsThereAfterAKill) {
 
   const Answered checked = box.check(told);
   EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+}
+
+TEST(BoxJournal, SettingsEditedWhileItRunsAreTheNextStarts) {
+  KeepingBox box;
+  box.start();
+  box.wait_for_claims();
+  box.add_to_settings("# edited\n");
+  box.end(SIGTERM, 0);
+  EXPECT_FALSE(has(box.rows(), "what=changed"));
+
+  const std::int64_t before = box.safe_rows();
+  box.start_again();
+  box.end(SIGTERM, 0);
+
+  EXPECT_GT(box.safe_rows(), before);
+  EXPECT_TRUE(has(box.rows(), "what=changed settings=")) << box.rows();
 }
 
 TEST(BoxJournal, ADiskThatIsNotThereIsToldAndTheBoxTracksOn) {
