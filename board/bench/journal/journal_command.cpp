@@ -10,7 +10,6 @@
 #include "drivers/journal/journal_check.h"
 #include "drivers/journal/journal_copy.h"
 #include "drivers/journal/journal_export.h"
-#include "drivers/journal/signing_key.h"
 
 namespace tubesight::board {
 namespace {
@@ -48,24 +47,15 @@ std::string check_text(const drivers::JournalCheck& found, bool key_given) {
 
 ExitStatus run_check(const JournalOptions& options) {
   std::string message;
-  drivers::JournalCheckOptions wanted;
-  wanted.at_least = options.at_least;
-  if (!options.key.empty()) {
-    const auto key = drivers::read_public_key(options.key, message);
-    if (!key) {
-      return refuse(message);
-    }
-    wanted.key = *key;
-  }
-  const auto found = drivers::check_journal(options.journal, wanted, message);
-  if (!found) {
+  const auto journal = check_seal(options.journal, options.key, message, options.at_least);
+  if (!journal) {
     return refuse(message);
   }
-  for (const drivers::JournalProblem& problem : found->problems) {
+  for (const drivers::JournalProblem& problem : journal->check.problems) {
     tell(options.journal + ": " + problem.what);
   }
-  const bool told = write_out(check_text(*found, !options.key.empty()));
-  return told && found->wrong == 0 ? ExitStatus::kDone : ExitStatus::kJobFailed;
+  const bool told = write_out(check_text(journal->check, journal->key_known));
+  return told && journal->seal() != Seal::kBroken ? ExitStatus::kDone : ExitStatus::kJobFailed;
 }
 
 ExitStatus export_to(const std::string& journal, const std::string& path,

@@ -28,10 +28,11 @@ std::string counted(std::int64_t number, const std::string& what) {
 }
 
 std::optional<SealedJournal> check_seal(const std::string& path, const std::string& key_path,
-                                        std::string& message) {
+                                        std::string& message, std::int64_t at_least) {
   SealedJournal journal;
   journal.path = path;
   drivers::JournalCheckOptions wanted;
+  wanted.at_least = at_least;
   if (!key_path.empty()) {
     const auto key = drivers::read_public_key(key_path, message);
     if (!key) {

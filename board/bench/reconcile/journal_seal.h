@@ -32,11 +32,12 @@ struct SealedJournal {
 };
 
 /// Checks a journal: its chain, its signatures, its pictures. `key_path` is the file of the box's
-/// public key, empty where it is not known. Empty, and why in one line, where the journal or the
-/// key cannot be read. A million rows take some seconds.
+/// public key, empty where it is not known; `at_least` the rows that it must have. Empty, and why
+/// in one line, where the journal or the key cannot be read. A million rows take some seconds.
 [[nodiscard]] std::optional<SealedJournal> check_seal(const std::string& path,
                                                       const std::string& key_path,
-                                                      std::string& message);
+                                                      std::string& message,
+                                                      std::int64_t at_least = 0);
 
 /// What the check came to, in sentences without the file's name: "The chain of 512 rows is whole.
 /// ...". The problems themselves are in `check`.
