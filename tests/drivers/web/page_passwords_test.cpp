@@ -1,26 +1,21 @@
 #include "drivers/web/page_passwords.h"
 
-#include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace tubesight::drivers {
 namespace {
 
 class PasswordFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = ::testing::TempDir() + "passwordsXXXXXX";
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path() const { return folder_ + "/passwords"; }
+  [[nodiscard]] std::string path() const { return folder_.path("passwords"); }
 
  private:
-  std::string folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(PasswordFile, IsReadAsItWasWritten) {
