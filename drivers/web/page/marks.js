@@ -12,6 +12,19 @@ export const COLOURS = {
   window: '#3fd0c9',
   claim: '#ff6a3d',
 };
+
+/** Adds four strokes to the path, from `inner` to `outer` px away from a place. */
+export function crossHair(ctx, x, y, inner, outer) {
+  for (const [dx, dy] of [
+    [1, 0],
+    [-1, 0],
+    [0, 1],
+    [0, -1],
+  ]) {
+    ctx.moveTo(x + dx * inner, y + dy * inner);
+    ctx.lineTo(x + dx * outer, y + dy * outer);
+  }
+}
 const RIM = '#000000';
 
 /** Strokes what `path` lays out, with a dark rim below. */
@@ -192,15 +205,7 @@ function drawTool(ctx, view, sighting, vouched) {
       [COLOURS.tool, 4.5],
     ]) {
       ctx.beginPath();
-      for (const [dx, dy] of [
-        [1, 0],
-        [-1, 0],
-        [0, 1],
-        [0, -1],
-      ]) {
-        ctx.moveTo(x + dx * reach, y + dy * reach);
-        ctx.lineTo(x + dx * long, y + dy * long);
-      }
+      crossHair(ctx, x, y, reach, long);
       if (vouched) {
         ctx.moveTo(x + reach, y);
         ctx.arc(x, y, reach, 0, 2 * Math.PI);

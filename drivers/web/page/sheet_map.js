@@ -1,6 +1,7 @@
 // Draws a sheet of 11,000 tubes at 60 pictures a second: tiles drawn once and shifted, marks over
 // them.
 import { make } from './dom.js';
+import { crossHair } from './marks.js';
 import { drawSite, SITE_COLOURS } from './sheet_symbols.js';
 
 const TILE = 512; // px of the device
@@ -362,15 +363,7 @@ export class SheetMap {
         ctx.strokeStyle = style;
         ctx.lineWidth = width;
         ctx.beginPath();
-        for (const [dx, dy] of [
-          [1, 0],
-          [-1, 0],
-          [0, 1],
-          [0, -1],
-        ]) {
-          ctx.moveTo(x + dx * 7, y + dy * 7);
-          ctx.lineTo(x + dx * 22, y + dy * 22);
-        }
+        crossHair(ctx, x, y, 7, 22);
         ctx.stroke();
       }
     }

@@ -14,17 +14,18 @@ export class WindowEditor {
     this.optimum = null;
     this.held = null;
     this.busy = false;
-    const field = (label, set, get) => {
+    // One of the numbers of `window` or `optimum`, which are replaced as a whole.
+    const field = (label, holder, key) => {
       const made = labelled(label, { inputmode: 'numeric', maxlength: 5 });
       made.input.addEventListener('change', () => {
         const value = wholeNumber(made.input.value);
         if (value !== null && this.window) {
-          set(value);
+          this[holder][key] = value;
           this.bound();
         }
         this.refresh();
       });
-      this.fields.push([made.input, get]);
+      this.fields.push([made.input, () => this[holder][key]]);
       return made.row;
     };
     this.fields = [];
@@ -40,48 +41,12 @@ export class WindowEditor {
       make(
         'div',
         { class: 'grid' },
-        field(
-          'Left',
-          (value) => {
-            this.window.left = value;
-          },
-          () => this.window.left,
-        ),
-        field(
-          'Top',
-          (value) => {
-            this.window.top = value;
-          },
-          () => this.window.top,
-        ),
-        field(
-          'Width',
-          (value) => {
-            this.window.width = value;
-          },
-          () => this.window.width,
-        ),
-        field(
-          'Height',
-          (value) => {
-            this.window.height = value;
-          },
-          () => this.window.height,
-        ),
-        field(
-          'Optimum u',
-          (value) => {
-            this.optimum.u = value;
-          },
-          () => this.optimum.u,
-        ),
-        field(
-          'Optimum v',
-          (value) => {
-            this.optimum.v = value;
-          },
-          () => this.optimum.v,
-        ),
+        field('Left', 'window', 'left'),
+        field('Top', 'window', 'top'),
+        field('Width', 'window', 'width'),
+        field('Height', 'window', 'height'),
+        field('Optimum u', 'optimum', 'u'),
+        field('Optimum v', 'optimum', 'v'),
       ),
       button('Apply', () => this.apply()),
     );
